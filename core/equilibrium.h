@@ -1,0 +1,62 @@
+// Static equilibrium: a stable minimum of the total potential, by a blended Newton method.
+//
+// Newton's matrix is H(a): the Hessian with its negative geometric parts scaled by 1 - a. Each
+// iteration tries a as small as the last ones allow and raises it only where the Cholesky
+// factorisation fails, so that the method is Newton's own near a minimum. A state counts as
+// converged when its residual is at most the tolerance (or the rounding floor, whichever is larger)
+// and the true Hessian has a Cholesky factor: the certificate that it is a minimum. At a saddle the
+// solver leaves along a direction of negative curvature.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/potential.h"
+#include "core/sparse_factor.h"
+
+namespace drape {
+
+struct EquilibriumOptions {
+  double tolerance = 1e-8;     ///< on the relative residual (see Potential::residual)
+  int max_iterations = 5000;   ///< Newton iterations, over all saddles
+  double largest_move = 0.02;  ///< of a vertex in one iteration [m]
+  bool certify = true;         ///< factor the true Hessian at the end and leave saddles
+};
+
+enum class EquilibriumStatus {
+  converged,        ///< residual within tolerance (or at the rounding floor), certified minimum
+  saddle,           ///< residual within tolerance, but no way down was found from a saddle
+  stagnated,        ///< no further decrease, residual above tolerance and rounding floor
+  iteration_limit,  ///< max_iterations reached
+  non_finite,       ///< the energy or its derivatives are not finite at the start
+};
+std::string_view name(EquilibriumStatus status);
+
+struct Equilibrium {
+  VecX x;  ///< 3n [m]
+  EquilibriumStatus status = EquilibriumStatus::non_finite;
+  double residual = 0;        ///< largest nodal force over largest nodal weight
+  double rounding_floor = 0;  ///< of that residual, measured at x (0 if not needed)
+  double energy = 0;          ///< [J]
+  int newton_iterations = 0;
+  int factorizations = 0;
+  int negative_eigenvalues = 0;  ///< of the true Hessian at x: 0 certified; -1 not known
+  double cpu_seconds = 0;        ///< of this thread
+  std::string protocol;          ///< how the start was chosen, see drape_protocol.h
+  /// Factor of the true Hessian at x; null unless converged and certified. Not for two threads at
+  /// a time.
+  std::shared_ptr<const SparseFactor> factor;
+
+  bool converged() const { return status == EquilibriumStatus::converged; }
+};
+
+/// Minimises the potential from x (3n); fixed vertices stay where they are. Never throws on numerical
+/// failure: see status.
+Equilibrium solve_equilibrium(const Potential& potential, const VecX& x,
+                              const EquilibriumOptions& options = {});
+
+/// Smallest eigenvalue of the true Hessian at a converged equilibrium [N/m].
+double smallest_eigenvalue(const Equilibrium& equilibrium);
+
+}  // namespace drape

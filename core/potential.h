@@ -1,0 +1,87 @@
+// Total potential energy of a hanging cloth and its derivatives.
+//
+//   E(x) = sum over triangles (Eqs. 1, 2) + sum over wings (Eqs. 3 to 11)
+//          + areal_density g sum_i A_i z_i  [+ a guide, see guide.h]
+//
+// with A_i the nodal areas. Fixed vertices have no unknowns: their rows of a gradient are zero.
+// Evaluations are parallel over elements and give the same bits for any number of threads.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/bending.h"
+#include "core/discretization.h"
+#include "core/fabric.h"
+#include "core/guide.h"
+#include "core/membrane.h"
+#include "core/types.h"
+
+namespace drape {
+
+class Potential {
+ public:
+  /// Throws std::invalid_argument for an invalid fabric or a gravity that is not finite and >= 0.
+  Potential(std::shared_ptr<const Discretization> discretization, const Fabric& fabric,
+            BendingReading reading, double gravity);
+
+  const Discretization& discretization() const { return *discretization_; }
+  std::shared_ptr<const Discretization> shared_discretization() const { return discretization_; }
+  const Mesh& mesh() const { return discretization_->mesh(); }
+  const Fabric& fabric() const { return fabric_; }
+  BendingReading reading() const { return reading_; }
+  double gravity() const { return gravity_; }
+
+  void set_fabric(const Fabric& fabric);
+  void set_gravity(double gravity);
+  void set_guide(std::optional<Guide> guide) { guide_ = std::move(guide); }
+  const std::optional<Guide>& guide() const { return guide_; }
+
+  /// x: 3n. Energy [J]; not finite for a collapsed triangle.
+  double energy(const VecX& x) const;
+
+  /// dE/dx (3n) [N].
+  VecX gradient(const VecX& x) const;
+
+  /// d2E/dx2 over the unknowns (free order, lower triangle) [N/m]. The negative geometric parts are
+  /// scaled by 1 - blend: 0 is the true Hessian, 1 a positive semidefinite one for Newton steps only.
+  void hessian(const VecX& x, double blend, SparseMatrix& H) const;
+
+  /// d(dE/dx)/d(parameter) for all parameters in order (3n x 13), at constant x.
+  MatX gradient_dfabric(const VecX& x) const;
+
+  /// lambda^T d(dE/dx)/d(parameter) without forming that matrix; lambda: 3n.
+  ParameterVector gradient_dfabric_transposed(const VecX& x, const VecX& lambda) const;
+
+  /// Largest weight of a vertex [N], the scale of residuals.
+  double largest_nodal_weight() const;
+  /// Weight of the free vertices [N].
+  double free_weight() const;
+  /// Largest nodal force on a free vertex over the largest nodal weight [1]; gradient: 3n.
+  double residual(const VecX& gradient) const;
+  /// Change of the residual when every coordinate of x moves by one unit in the last place: no state
+  /// stored in doubles can be expected to have a smaller residual.
+  double rounding_floor(const VecX& x) const;
+
+  /// Number of wings past their bending threshold, and for each wing whether it is.
+  int wings_past_threshold(const VecX& x) const;
+  std::vector<bool> wing_regimes(const VecX& x) const;
+
+ private:
+  Corners3<double> triangle_corners(int triangle, const VecX& x) const;
+  Corners4<double> wing_corners(int wing, const VecX& x) const;
+  void add_guide_hessian(const VecX& x, double blend, SparseMatrix& H) const;
+  double guide_stiffness() const;
+  VecX guide_gradient(const VecX& x) const;
+
+  std::shared_ptr<const Discretization> discretization_;
+  Fabric fabric_;
+  BendingReading reading_;
+  double gravity_;
+  std::vector<WingLaw> laws_;  // one a wing
+  std::optional<Guide> guide_;
+  Rim rim_;
+};
+
+}  // namespace drape

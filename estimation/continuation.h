@@ -1,0 +1,53 @@
+// Following one branch of equilibria as the fabric changes.
+//
+// A drape has many equilibria, and a loss is differentiable along one of them only. Each step predicts
+// x + dx/dz dz and minimises from there; it counts only when the minimum lies close to the prediction
+// (relative to the predicted movement), which a snap to another branch does not. Otherwise the step
+// is halved.
+#pragma once
+
+#include <optional>
+
+#include "core/equilibrium.h"
+#include "core/potential.h"
+#include "estimation/parameter_space.h"
+
+namespace drape {
+
+/// A converged equilibrium together with what is needed to leave it.
+struct BranchPoint {
+  VecX z;                   ///< unknowns (see ParameterSpace)
+  Equilibrium equilibrium;  ///< converged
+  MatX dx_dz;               ///< 3n x size
+};
+
+struct ContinuationOptions {
+  double largest_step = 0.35;        ///< largest change of an unknown in one step
+  double largest_deviation = 0.35;   ///< of the minimum from the prediction, over predicted movement
+  double noise = 2e-5;               ///< deviations below this are never a snap [m]
+  int halvings = 7;                  ///< how often a step is halved before the branch counts as lost
+  EquilibriumOptions equilibrium{.tolerance = 1e-8, .max_iterations = 80};
+};
+
+/// Work done, summed over calls.
+struct ContinuationCost {
+  int solves = 0;
+  int newton_iterations = 0;
+  int factorizations = 0;
+};
+
+/// The sensitivities of a converged equilibrium make it a point to continue from.
+BranchPoint make_branch_point(const Potential& potential, const ParameterSpace& space,
+                              const VecX& z, Equilibrium equilibrium);
+
+/// Follows the branch from `from` to z. `potential` (guide and gravity as set) ends with the fabric of
+/// the last state tried. Nothing when the branch was lost.
+std::optional<BranchPoint> follow_branch(Potential& potential, const ParameterSpace& space,
+                                         const BranchPoint& from, const VecX& z,
+                                         const ContinuationOptions& options,
+                                         ContinuationCost* cost = nullptr);
+
+/// Largest distance between corresponding vertices of two states (3n) [m].
+double largest_distance(const VecX& a, const VecX& b);
+
+}  // namespace drape

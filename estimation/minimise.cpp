@@ -1,0 +1,131 @@
+#include "estimation/minimise.h"
+
+#include <ceres/ceres.h>
+
+#include <utility>
+
+namespace drape {
+namespace {
+
+class ProfileResiduals : public ceres::CostFunction {
+ public:
+  explicit ProfileResiduals(DrapeObjective& objective) : objective_(objective) {
+    set_num_residuals(objective.residuals());
+    mutable_parameter_block_sizes()->push_back(objective.unknowns());
+  }
+  bool Evaluate(double const* const* u, double* residuals, double** jacobians) const override {
+    VecX r;
+    MatX jacobian;
+    const bool wanted = jacobians != nullptr && jacobians[0] != nullptr;
+    if (!objective_.residuals_at(Eigen::Map<const VecX>(u[0], objective_.unknowns()), r,
+                                 wanted ? &jacobian : nullptr))
+      return false;
+    Eigen::Map<VecX>(residuals, r.size()) = r;
+    if (wanted)
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+          jacobians[0], jacobian.rows(), jacobian.cols()) = jacobian;
+    return true;
+  }
+
+ private:
+  DrapeObjective& objective_;
+};
+
+class AdjointCost : public ceres::FirstOrderFunction {
+ public:
+  AdjointCost(DrapeObjective& objective, const MinimiseOptions& options)
+      : objective_(objective), options_(options) {}
+  int NumParameters() const override { return objective_.unknowns(); }
+  bool Evaluate(const double* u_data, double* cost, double* gradient) const override {
+    const Eigen::Map<const VecX> u(u_data, objective_.unknowns());
+    if ((u.array() < options_.lower.array()).any() || (u.array() > options_.upper.array()).any())
+      return false;
+    VecX g;
+    if (!objective_.cost_at(u, *cost, gradient != nullptr ? &g : nullptr)) return false;
+    if (gradient != nullptr) Eigen::Map<VecX>(gradient, g.size()) = g;
+    return true;
+  }
+
+ private:
+  DrapeObjective& objective_;
+  const MinimiseOptions& options_;
+};
+
+class StopAtSufficientCost : public ceres::IterationCallback {
+ public:
+  explicit StopAtSufficientCost(double sufficient) : sufficient_(sufficient) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    return summary.cost <= sufficient_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                       : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  double sufficient_;
+};
+
+/// What both of Ceres' solvers report.
+template <typename Summary>
+void keep(const Summary& summary, Minimum& minimum) {
+  minimum.initial_cost = summary.initial_cost;
+  minimum.cost = summary.final_cost;
+  minimum.iterations = static_cast<int>(summary.iterations.size());
+  minimum.converged = summary.termination_type == ceres::CONVERGENCE ||
+                      summary.termination_type == ceres::USER_SUCCESS;
+  minimum.message = summary.message;
+}
+
+Minimum levenberg_marquardt(DrapeObjective& objective, const VecX& u,
+                            const MinimiseOptions& options) {
+  Minimum minimum;
+  minimum.u = u;
+  ceres::Problem problem;
+  problem.AddResidualBlock(new ProfileResiduals(objective), nullptr, minimum.u.data());
+  for (int i = 0; i < objective.unknowns(); ++i) {
+    problem.SetParameterLowerBound(minimum.u.data(), i, options.lower[i]);
+    problem.SetParameterUpperBound(minimum.u.data(), i, options.upper[i]);
+  }
+  ceres::Solver::Options ceres_options;
+  ceres_options.linear_solver_type = ceres::DENSE_QR;
+  ceres_options.max_num_iterations = options.max_iterations;
+  ceres_options.function_tolerance = options.function_tolerance;
+  ceres_options.parameter_tolerance = options.parameter_tolerance;
+  ceres_options.gradient_tolerance = 1e-12;
+  ceres_options.initial_trust_region_radius = 1e2;
+  ceres_options.max_num_consecutive_invalid_steps = 8;
+  StopAtSufficientCost stop(options.sufficient_cost);
+  ceres_options.callbacks.push_back(&stop);
+  ceres_options.logging_type = ceres::SILENT;
+  ceres_options.num_threads = 1;
+  ceres::Solver::Summary summary;
+  ceres::Solve(ceres_options, &problem, &summary);
+  keep(summary, minimum);
+  return minimum;
+}
+
+Minimum bfgs(DrapeObjective& objective, const VecX& u, const MinimiseOptions& options) {
+  Minimum minimum;
+  minimum.u = u;
+  const ceres::GradientProblem problem(new AdjointCost(objective, options));
+  ceres::GradientProblemSolver::Options ceres_options;
+  ceres_options.line_search_direction_type = ceres::BFGS;
+  ceres_options.max_num_iterations = options.max_iterations;
+  ceres_options.function_tolerance = options.function_tolerance;
+  ceres_options.parameter_tolerance = options.parameter_tolerance;
+  ceres_options.gradient_tolerance = 1e-12;
+  StopAtSufficientCost stop(options.sufficient_cost);
+  ceres_options.callbacks.push_back(&stop);
+  ceres_options.logging_type = ceres::SILENT;
+  ceres::GradientProblemSolver::Summary summary;
+  ceres::Solve(ceres_options, problem, minimum.u.data(), &summary);
+  keep(summary, minimum);
+  return minimum;
+}
+
+}  // namespace
+
+Minimum minimise(DrapeObjective& objective, const VecX& u, const MinimiseOptions& options) {
+  return options.method == FitMethod::bfgs ? bfgs(objective, u, options)
+                                           : levenberg_marquardt(objective, u, options);
+}
+
+}  // namespace drape

@@ -1,0 +1,33 @@
+// Ceres on a DrapeObjective: Levenberg-Marquardt with the sensitivity Jacobian, or BFGS with the
+// adjoint gradient.
+#pragma once
+
+#include <string>
+
+#include "estimation/drape_objective.h"
+
+namespace drape {
+
+enum class FitMethod { levenberg_marquardt, bfgs };
+
+struct MinimiseOptions {
+  FitMethod method = FitMethod::levenberg_marquardt;
+  int max_iterations = 60;
+  double function_tolerance = 1e-9;   ///< relative change of the cost
+  double parameter_tolerance = 1e-7;  ///< relative change of the unknowns
+  double sufficient_cost = 1e-5;      ///< costs below are far inside the noise: done
+  VecX lower, upper;                  ///< bounds on u; a BFGS step that leaves them is shortened
+};
+
+struct Minimum {
+  VecX u;
+  double initial_cost = 0, cost = 0;
+  int iterations = 0;
+  bool converged = false;  ///< a tolerance was met
+  std::string message;     ///< Ceres' own words
+};
+
+/// Minimises the objective from u, whose drape must be known.
+Minimum minimise(DrapeObjective& objective, const VecX& u, const MinimiseOptions& options);
+
+}  // namespace drape

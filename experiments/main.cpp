@@ -1,0 +1,125 @@
+// The program: from a command line to a finished folder and an exit code.
+//
+// Exit codes: 0 done; 1 unexpected error; 2 wrong use, bad config or bad input; 3 done, but at
+// least one solve failed; 130 interrupted, with everything acknowledged kept.
+#include <chrono>
+#include <exception>
+#include <iostream>
+#include <set>
+#include <stdexcept>
+
+#include "core/records.h"
+#include "experiments/command_line.h"
+#include "experiments/config_keys.h"
+#include "experiments/config_text.h"
+#include "experiments/interrupt.h"
+#include "experiments/kinds.h"
+#include "experiments/summary.h"
+
+namespace drape {
+namespace {
+
+constexpr int kDone = 0, kUnexpected = 1, kBadInput = 2, kSolveFailed = 3, kInterrupted = 130;
+
+RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
+  switch (settings.experiment.kind) {
+    case Kind::drape:
+      return run_drape(settings, folder);
+    case Kind::dataset:
+      return run_dataset(settings, folder);
+    case Kind::estimate:
+      return run_estimate(settings, folder);
+    case Kind::photograph:
+      return run_photograph(settings, folder);
+    case Kind::gradient_check:
+      return run_gradient_check(settings, folder);
+    case Kind::robustness:
+      return run_robustness(settings, folder);
+    case Kind::quickstart:
+      return run_quickstart(settings, folder);
+  }
+  throw std::logic_error("a kind of experiment without a function");
+}
+
+int exit_code(const std::string& status) { return status == "ok" ? kDone : kSolveFailed; }
+
+void print_content(const OutputFolder& folder) {
+  std::set<std::filesystem::path> visible;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    if (!entry.path().filename().string().starts_with('.')) visible.insert(entry.path());
+  for (const std::filesystem::path& path : visible) std::cout << "  " << path.string() << "\n";
+}
+
+int run(const Settings& settings, const std::filesystem::path& out) {
+  const auto begin = std::chrono::steady_clock::now();
+  OutputFolder folder(out, settings);
+  if (folder.state() == OutputFolder::State::finished) {
+    const std::string status = read_status(folder);
+    std::cout << "Already done, nothing to do (status " << status << "):\n";
+    print_content(folder);
+    return exit_code(status);
+  }
+  if (folder.state() == OutputFolder::State::resumed)
+    std::cerr << "Resuming the run in " << out.string() << "\n";
+
+  catch_interrupts();
+  const RunOutcome outcome = run_kind(settings, folder);
+  if (interrupted()) {
+    std::cerr << "Interrupted. " << out.string()
+              << " keeps what was finished; the same command resumes it.\n";
+    return kInterrupted;
+  }
+  write_summary(folder, summary(settings.experiment.kind, outcome, begin));
+  std::cout << "Done (status " << outcome.status << "):\n";
+  print_content(folder);
+  return exit_code(outcome.status);
+}
+
+int execute(const CommandLine& line) {
+  switch (line.command) {
+    case Command::run:
+      return run(read_settings(line.file, line.assignments), line.out);
+    case Command::estimate: {
+      const Settings settings = read_settings(line.file, line.assignments);
+      const Kind kind = settings.experiment.kind;
+      if (kind != Kind::estimate && kind != Kind::photograph)
+        throw UsageError("estimate needs a config of kind \"estimate\" or \"photograph\", not \"" +
+                         name(kind) + "\"; use drape run");
+      return run(settings, line.out);
+    }
+    case Command::validate: {
+      const Settings settings = read_settings(line.file, line.assignments);
+      std::cout << line.file->string() << ": valid, kind \"" << name(settings.experiment.kind)
+                << "\"\n";
+      return kDone;
+    }
+    case Command::explain:
+      std::cout << explain(line.query);
+      return kDone;
+    case Command::info:
+      std::cout << describe_records(*line.file);
+      return kDone;
+  }
+  throw std::logic_error("a command without a function");
+}
+
+int guarded_main(int argc, char** argv) {
+  try {
+    const std::optional<CommandLine> line = parse_command_line(argc, argv);
+    return line ? execute(*line) : kDone;
+  } catch (const std::invalid_argument& error) {  // UsageError and ConfigError as well
+    std::cerr << error.what() << "\n";
+    return kBadInput;
+  } catch (const RecordError& error) {
+    std::cerr << error.what() << "\n";
+    return kBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << "Unexpected error: " << error.what() << "\n";
+    return kUnexpected;
+  }
+}
+
+}  // namespace
+}  // namespace drape
+
+int main(int argc, char** argv) { return drape::guarded_main(argc, argv); }

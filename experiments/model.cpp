@@ -1,0 +1,135 @@
+#include "experiments/model.h"
+
+#include <limits>
+#include <stdexcept>
+
+#include "core/disc_mesh.h"
+#include "core/drape_protocol.h"
+#include "core/outline.h"
+#include "core/profile.h"
+#include "core/version.h"
+#include "experiments/config_text.h"
+
+namespace drape {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+Observation nothing_seen(const PixelGrid& grid) {
+  return {VecX::Constant(kProfileSize, kNaN), CoverageImage::Zero(grid.rows, grid.columns), kNaN,
+          0};
+}
+
+}  // namespace
+
+std::shared_ptr<const Discretization> make_discretization(const Settings& settings, int vertices) {
+  DiscMeshOptions options;
+  options.vertices = vertices > 0 ? vertices : settings.mesh.vertices;
+  options.seed = settings.mesh.seed;
+  options.rotation = settings.mesh.rotation;
+  options.clamp_wing_factor = settings.mesh.clamp_wing_factor;
+  return std::make_shared<const Discretization>(make_disc_mesh(settings.scene, options),
+                                                settings.solver.factorization);
+}
+
+Potential make_potential(std::shared_ptr<const Discretization> discretization,
+                         const Fabric& fabric, const Settings& settings) {
+  return {std::move(discretization), fabric, settings.reading, settings.scene.gravity};
+}
+
+EquilibriumOptions equilibrium_options(const Settings& settings) {
+  EquilibriumOptions options;
+  options.tolerance = settings.solver.tolerance;
+  options.max_iterations = settings.solver.max_iterations;
+  return options;
+}
+
+Equilibrium drape(const Settings& settings, const Potential& potential) {
+  const StartSettings& start = settings.start;
+  const EquilibriumOptions options = equilibrium_options(settings);
+  switch (start.protocol) {
+    case StartProtocol::ramp:
+      return drape_by_ramp(potential, start.seed, options);
+    case StartProtocol::lobes:
+      return drape_by_lobes(potential, settings.scene, start.lobes, start.phase, options);
+  }
+  throw std::logic_error("a start protocol without a function");
+}
+
+PixelGrid observation_grid(const Settings& settings) {
+  return centred_grid(settings.dataset.pixels, settings.dataset.image_width);
+}
+
+Observation observe(const Scene& scene, const Mesh& mesh, const VecX& x, const PixelGrid& grid) {
+  const Points2 outline = trace_outline(mesh, scene, x).points;
+  const VecX profile = radial_profile(outline).radius;
+  return {profile, coverage(outline, grid), drape_coefficient(scene, area(outline)),
+          node_count(profile)};
+}
+
+RecordsHeader records_header(const Settings& settings, const Mesh& mesh) {
+  RecordsHeader header;
+  header.config = write_settings(settings);
+  header.seed = settings.experiment.seed;
+  header.git_commit = git_commit();
+  header.compiler = compiler();
+  header.rest_uv = mesh.rest_uv;
+  header.triangles = mesh.triangles;
+  header.fixed = mesh.fixed;
+  header.clamp_wing_factor = mesh.clamp_wing_factor;
+  header.scene = settings.scene;
+  header.reading = settings.reading;
+  header.grid = observation_grid(settings);
+  return header;
+}
+
+SolveStats solve_stats(const Potential& potential, const Equilibrium& equilibrium) {
+  SolveStats stats;
+  stats.status = name(equilibrium.status);
+  stats.protocol = equilibrium.protocol;
+  stats.residual_relative = equilibrium.residual;
+  stats.rounding_floor = equilibrium.rounding_floor;
+  stats.newton_iterations = equilibrium.newton_iterations;
+  stats.factorizations = equilibrium.factorizations;
+  stats.negative_eigenvalues = equilibrium.negative_eigenvalues;
+  stats.wings_past_threshold = potential.wings_past_threshold(equilibrium.x);
+  stats.energy = equilibrium.energy;
+  stats.cpu_seconds = equilibrium.cpu_seconds;
+  return stats;
+}
+
+Record make_record(const Settings& settings, const Potential& potential,
+                   const Equilibrium& equilibrium) {
+  if (!equilibrium.converged()) {
+    Record record = failed_record(settings, potential.mesh(), potential.fabric(), "");
+    record.stats = solve_stats(potential, equilibrium);
+    return record;
+  }
+  Record record;
+  record.fabric = potential.fabric();
+  record.positions = equilibrium.x;
+  record.stats = solve_stats(potential, equilibrium);
+  record.observation =
+      observe(settings.scene, potential.mesh(), equilibrium.x, observation_grid(settings));
+  return record;
+}
+
+Record failed_record(const Settings& settings, const Mesh& mesh, const Fabric& fabric,
+                     const std::string& status) {
+  Record record;
+  record.fabric = fabric;
+  record.positions = VecX::Constant(3 * mesh.vertex_count(), kNaN);
+  record.stats.status = status;
+  record.stats.residual_relative = kNaN;
+  record.stats.rounding_floor = kNaN;
+  record.stats.negative_eigenvalues = -1;
+  record.stats.energy = kNaN;
+  record.observation = nothing_seen(observation_grid(settings));
+  return record;
+}
+
+bool converged(const Record& record) {
+  return record.stats.status == name(EquilibriumStatus::converged);
+}
+
+}  // namespace drape

@@ -1,0 +1,52 @@
+// From settings to the objects of the model, and from an equilibrium to a record: what all kinds of
+// experiments share.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/coverage.h"
+#include "core/discretization.h"
+#include "core/equilibrium.h"
+#include "core/potential.h"
+#include "core/records.h"
+#include "experiments/settings.h"
+
+namespace drape {
+
+/// The specimen's mesh and all that depends on it alone. `vertices` overrides mesh.vertices.
+std::shared_ptr<const Discretization> make_discretization(const Settings& settings,
+                                                          int vertices = 0);
+
+/// Throws std::invalid_argument on an invalid fabric.
+Potential make_potential(std::shared_ptr<const Discretization> discretization,
+                         const Fabric& fabric, const Settings& settings);
+
+EquilibriumOptions equilibrium_options(const Settings& settings);
+
+/// The drape by the start protocol of the settings.
+Equilibrium drape(const Settings& settings, const Potential& potential);
+
+/// The grid of coverage images.
+PixelGrid observation_grid(const Settings& settings);
+
+/// What is seen of state x (3n). Throws std::runtime_error if the outline cannot be traced.
+Observation observe(const Scene& scene, const Mesh& mesh, const VecX& x, const PixelGrid& grid);
+
+RecordsHeader records_header(const Settings& settings, const Mesh& mesh);
+
+SolveStats solve_stats(const Potential& potential, const Equilibrium& equilibrium);
+
+/// The record of an equilibrium, converged or not; the tag is left to the caller. Throws like
+/// observe.
+Record make_record(const Settings& settings, const Potential& potential,
+                   const Equilibrium& equilibrium);
+
+/// The record of a fabric without an equilibrium: NaN positions, `status` says why.
+Record failed_record(const Settings& settings, const Mesh& mesh, const Fabric& fabric,
+                     const std::string& status);
+
+/// Whether the record's solve ended at a certified minimum.
+bool converged(const Record& record);
+
+}  // namespace drape

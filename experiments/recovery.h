@@ -1,0 +1,33 @@
+// Recovery of known parameters: one record's outline back to its parameters, from a wrong start.
+#pragma once
+
+#include <cstdint>
+
+#include "core/potential.h"
+#include "core/records.h"
+#include "experiments/settings.h"
+
+namespace drape {
+
+/// The first parameters of a fit: the truth times the perturbation, or for some parameters (chosen
+/// by the seed) divided by it.
+Fabric perturbed(const Fabric& truth, const EstimateSettings& settings, std::uint64_t seed);
+
+/// Adds smooth noise of standard deviation `sd` [m] to a profile: harmonics 0 to 15, random phases.
+VecX with_noise(const VecX& profile, double sd, std::uint64_t seed);
+
+EstimateOptions estimate_options(const Settings& settings);
+
+/// Estimates the parameters of a record from its profile (or coverage). `model` gives mesh, reading and
+/// gravity. The record's own equilibrium, where it has one, is used for two things: to say whether
+/// target and start share a branch (continuing target -> start -> target comes back within 1e-6 m),
+/// and, for start = "continued", for the first drape of the fit.
+EstimateRecord recover(const Settings& settings, const Potential& model, const Record& record,
+                       const RecordsHeader& header, std::uint64_t seed);
+
+/// What is seen of an estimate and how it went, as a record keeps it.
+EstimateRecord estimate_record(const Potential& model, const Scene& scene, const Estimate& estimate,
+                               const OutlineObservation& observation,
+                               const std::vector<Parameter>& parameters);
+
+}  // namespace drape

@@ -1,0 +1,140 @@
+// All settings of an experiment with their defaults, as plain structs in SI units.
+//
+// The table in config_keys.cpp ties every member to a key of the config file, with its unit, range
+// and meaning: `drape explain` prints it. A member without a row there cannot be set by a user.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/fabric.h"
+#include "core/scene.h"
+#include "core/sparse_factor.h"
+#include "estimation/estimate.h"
+#include "estimation/tag.h"
+
+namespace drape {
+
+enum class Kind { drape, dataset, estimate, photograph, gradient_check, robustness, quickstart };
+
+struct Experiment {
+  Kind kind = Kind::drape;
+  std::uint64_t seed = 1;  ///< of everything random but mesh and start
+  int threads = 0;         ///< 0: all of the machine's
+
+  int thread_count() const {
+    if (threads > 0) return threads;
+    const unsigned available = std::thread::hardware_concurrency();
+    return available > 0 ? static_cast<int>(available) : 1;
+  }
+};
+
+enum class MeshKind { isotropic };
+
+struct MeshSettings {
+  int vertices = 2000;
+  MeshKind kind = MeshKind::isotropic;
+  std::uint64_t seed = 1;
+  double rotation = 0;  ///< of the mesh under the fabric [rad]
+  double clamp_wing_factor = 2;
+};
+
+struct SolverSettings {
+  double tolerance = 1e-8;  ///< relative residual
+  int max_iterations = 5000;
+  FactorBackend factorization = default_factor_backend();
+};
+
+enum class StartProtocol { ramp, lobes };
+
+struct StartSettings {
+  StartProtocol protocol = StartProtocol::ramp;
+  int lobes = 6;
+  double phase = 0;        ///< direction of the first lobe from +x [rad]
+  std::uint64_t seed = 1;  ///< of the ramp's noise
+};
+
+/// How the first drape of a fit is found.
+enum class EstimateStart {
+  guided,     ///< from the outline alone
+  continued,  ///< a known target's own equilibrium, followed to the first parameters
+};
+
+struct EstimateSettings {
+  int fabrics = 20;
+  std::filesystem::path dataset;  ///< empty: random fabrics
+  std::vector<int> records;       ///< empty: all
+  FitMethod method = FitMethod::levenberg_marquardt;
+  OutlineLoss loss = OutlineLoss::profile;
+  std::vector<Parameter> parameters{Parameter::k_h, Parameter::k_bu, Parameter::k_bv,
+                                    Parameter::k_bh};
+  double perturbation = 2;
+  bool perturb_either_way = false;
+  int max_iterations = 60;
+  double bounds = 100;
+  double outline_noise = 5e-4;  ///< [m]
+  bool add_noise = false;
+  double prior_log_sd = 0;   ///< 0: no prior
+  EstimateStart start = EstimateStart::guided;
+  int guide_harmonics = 24;
+  std::vector<double> guide{1, 0.1, 0.01};
+};
+
+struct DatasetSettings {
+  int fabrics = 100;
+  std::filesystem::path table;  ///< empty: random fabrics
+  int rows = 0;                 ///< of the table; 0: all
+  int pixels = 256;
+  double image_width = 0.35584;  ///< [m]
+};
+
+enum class CheckedLoss { profile, coverage, drape_coefficient };
+
+struct GradientCheckSettings {
+  int fabrics = 20;
+  CheckedLoss loss = CheckedLoss::profile;
+  std::vector<Parameter> parameters{all_parameters().begin(), all_parameters().end()};
+  std::vector<double> steps{1e-3, 1e-4, 1e-5, 1e-6};
+};
+
+struct RobustnessSettings {
+  int fabrics = 60;
+  std::vector<int> vertices{1000, 2000, 8000};
+};
+
+struct QuickstartSettings {
+  int fabrics = 15;
+  std::filesystem::path table;
+  std::filesystem::path photograph;  ///< empty: none
+  double mm_per_pixel = 0, areal_density = 0;  ///< of the photograph
+};
+
+struct PhotographSettings {
+  std::filesystem::path file;
+  double mm_per_pixel = 0;   ///< [mm]; 0: not given
+  double areal_density = 0;  ///< [kg/m^2]; 0: not given
+  Structure structure = Structure::woven;
+  double outline_noise = 1e-3;  ///< [m]
+  double prior_log_sd = 1;      ///< 0: no prior
+};
+
+struct Settings {
+  Experiment experiment;
+  Fabric fabric;
+  BendingReading reading;
+  Scene scene;
+  MeshSettings mesh;
+  SolverSettings solver;
+  StartSettings start;
+  DatasetSettings dataset;
+  EstimateSettings estimate;
+  PhotographSettings photograph;
+  GradientCheckSettings gradient_check;
+  RobustnessSettings robustness;
+  QuickstartSettings quickstart;
+};
+
+}  // namespace drape

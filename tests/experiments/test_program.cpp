@@ -1,0 +1,167 @@
+// The program as a user meets it: exit codes, messages, and what it leaves on the disk.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "tests/experiments/scratch_folder.h"
+
+namespace drape {
+namespace {
+
+struct Ended {
+  int exit_code;
+  std::string text;  // stdout and stderr
+  bool says(const std::string& part) const { return text.find(part) != std::string::npos; }
+};
+
+class Program : public testing::Test {
+ protected:
+  Ended shell(const std::string& command) const {
+    FILE* pipe = popen(("cd " + scratch.path().string() + " && " + command + " 2>&1").c_str(), "r");
+    std::string text;
+    char buffer[4096];
+    while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
+    const int status = pclose(pipe);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
+  }
+  Ended drape(const std::string& arguments) const { return shell(DRAPE_PROGRAM " " + arguments); }
+
+  // Exit code 2, a message with this text, and no output folder.
+  void expect_refused(const std::string& arguments, const std::string& message) const {
+    const Ended ended = drape(arguments);
+    EXPECT_EQ(ended.exit_code, 2) << arguments << "\n" << ended.text;
+    EXPECT_TRUE(ended.says(message)) << arguments << "\n" << ended.text;
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out")) << arguments;
+  }
+
+  void SetUp() override {
+    scratch.write("a.toml",
+                  "[experiment]\nkind = 'drape'\n[mesh]\nvertices = 250\n"
+                  "[fabric]\nk_bu = 2e-5\nk_bv = 2e-5\nk_bh = 2e-5\n");
+  }
+
+  const ScratchFolder scratch;
+};
+
+TEST_F(Program, HelpAndVersion) {
+  EXPECT_EQ(drape("--help").exit_code, 0);
+  EXPECT_TRUE(drape("--version").says("drape "));
+  for (const char* command : {"run", "validate", "explain", "info", "estimate"}) {
+    const Ended ended = drape(std::string(command) + " --help");
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_TRUE(ended.says(std::string("drape ") + command)) << ended.text;
+  }
+}
+
+TEST_F(Program, Explain) {
+  EXPECT_TRUE(drape("explain").says("[solver]"));
+  EXPECT_EQ(drape("explain solver.tolerance").exit_code, 0);
+  expect_refused("explain solver.tolerence", "did you mean 'tolerance'?");
+}
+
+TEST_F(Program, Validate) {
+  const Ended valid = drape("validate a.toml");
+  EXPECT_EQ(valid.exit_code, 0);
+  EXPECT_TRUE(valid.says("a.toml: valid")) << valid.text;
+  scratch.write("b.toml", "[experiment]\nkind = 'drape'\n[solver]\ntolerence = 1e-8\n");
+  expect_refused("validate b.toml",
+                 "b.toml:4:1: unknown key 'solver.tolerence'; did you mean 'tolerance'?");
+}
+
+TEST_F(Program, WrongUse) {
+  expect_refused("", "required");
+  expect_refused("rum a.toml --out out", "unknown command 'rum'; did you mean 'run'?");
+  expect_refused("run a.toml --out out --thread 2", "'--thread'; did you mean '--threads'?");
+  expect_refused("run a.toml", "--out is required");
+  expect_refused("run --out out", "CONFIG is required");
+  expect_refused("run a.toml b.toml --out out", "b.toml");
+  expect_refused("run a.toml --out out --threads two", "--threads two: ");
+  expect_refused("run a.toml --out out --set mesh.vertces=300", "did you mean 'vertices'?");
+  expect_refused("run a.toml --out out --set mesh.vertices", "section.key=value");
+  expect_refused("info none.h5", "none.h5");
+}
+
+TEST_F(Program, BadConfig) {
+  expect_refused("run none.toml --out out", "none.toml: no such file");
+  expect_refused("run . --out out", "is a folder");
+  for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
+           {"", "is empty"},
+           {"[\\", "b.toml:1:2: "},
+           {"[mesh]\nseed = 1\nseed = 2\n", "b.toml:3:"},
+           {"[fabric]\nk_bu = -1\n", "b.toml:2:8: fabric.k_bu = -1: must be a finite number > 0"},
+           {"[fabric]\nareal_density = 0\n", "b.toml:2:17: "},
+           {"[fabric]\nk_u = inf\n", "b.toml:2:7: "},
+           {"[mesh]\nseed = 1\n", "experiment.kind is missing"}}) {
+    scratch.write("b.toml", text);
+    expect_refused("run b.toml --out out", message);
+  }
+}
+
+TEST_F(Program, EstimateNeedsItsInput) {
+  expect_refused("estimate --out out", "needs --photo FILE, --dataset FILE or a CONFIG");
+  expect_refused("estimate a.toml --out out", "not \"drape\"");
+  expect_refused("estimate --photo none.png --mm-per-pixel 1.39 --density .2 --out out",
+                 "--photo none.png: photograph.file: there is no file");
+  expect_refused("estimate --photo a.toml --density .2 --out out", "mm_per_pixel");
+  expect_refused("estimate --photo a.toml --mm-per-pixel 1.39 --out out", "areal_density");
+  expect_refused("estimate --photo a.toml --mm-per-pixel -1 --density .2 --out out",
+                 "--mm-per-pixel -1: ");
+  expect_refused("estimate --dataset none.h5 --records 0,1 --out out", "there is no file");
+  expect_refused("estimate --dataset a.toml --records 0,x --out out", "--records [0, x]: ");
+  expect_refused("estimate --mm-per-pixel 1 --out out", "--photo");
+}
+
+TEST_F(Program, RunsOnceAndThenLeavesTheFolderAlone) {
+  const Ended first = drape("run a.toml --out out --threads 1");
+  ASSERT_EQ(first.exit_code, 0) << first.text;
+  const auto summary = nlohmann::json::parse(scratch.read("out/summary.json"));
+  EXPECT_EQ(summary["kind"], "drape");
+  EXPECT_EQ(summary["status"], "ok");
+  const auto written = std::filesystem::last_write_time(scratch / "out/summary.json");
+
+  const Ended second = drape("run a.toml --out out");
+  EXPECT_EQ(second.exit_code, 0);
+  EXPECT_TRUE(second.says("Already done")) << second.text;
+  // The resolved config describes the same run.
+  EXPECT_TRUE(drape("run out/config.toml --out out").says("Already done"));
+
+  const Ended other = drape("run a.toml --out out --set mesh.seed=2");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_TRUE(other.says("mesh.seed = 1, here 2")) << other.text;
+  EXPECT_EQ(std::filesystem::last_write_time(scratch / "out/summary.json"), written);
+}
+
+TEST_F(Program, RefusesAFolderWithOtherContent) {
+  std::filesystem::create_directory(scratch / "full");
+  scratch.write("full/thesis.tex", "x");
+  const Ended ended = drape("run a.toml --out full");
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_TRUE(ended.says("has content that is no run")) << ended.text;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "full/config.toml"));
+  EXPECT_EQ(scratch.read("full/thesis.tex"), "x");
+}
+
+TEST_F(Program, FailedSolveIsExitCode3) {
+  const std::string command = "run a.toml --out out --set solver.max_iterations=1";
+  const Ended ended = drape(command);
+  EXPECT_EQ(ended.exit_code, 3) << ended.text;
+  EXPECT_EQ(nlohmann::json::parse(scratch.read("out/summary.json"))["status"], "failed");
+  EXPECT_EQ(drape(command).exit_code, 3);  // already done, with the same outcome
+}
+
+TEST_F(Program, InterruptedIsExitCode130AndResumable) {
+  const std::string command = DRAPE_PROGRAM
+      " run a.toml --out out --set experiment.kind=dataset --set dataset.fabrics=100000";
+  for (int session = 0; session < 2; ++session) {
+    const Ended ended = shell("timeout --preserve-status --signal=INT 2 " + command);
+    EXPECT_EQ(ended.exit_code, 130) << ended.text;
+    EXPECT_TRUE(ended.says("the same command resumes it")) << ended.text;
+    EXPECT_EQ(ended.says("Resuming"), session == 1) << ended.text;
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out/summary.json"));
+  }
+}
+
+}  // namespace
+}  // namespace drape
