@@ -51,6 +51,7 @@ std::optional<BranchPoint> follow_branch(Potential& potential, const ParameterSp
   ContinuationCost& work = cost != nullptr ? *cost : ignored;
   const VecX path = z - from.z;
   const double length = path.cwiseAbs().maxCoeff();
+  if (length > options.largest_leap) return std::nullopt;
   const double smallest = std::pow(0.5, options.halvings);
 
   BranchPoint point = from;

@@ -21,7 +21,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 DrapeObjective::DrapeObjective(Potential potential, const Scene& scene, ParameterSpace space,
                                OutlineObservation observation, OutlineLoss loss,
-                               double prior_log_sd, ContinuationOptions continuation)
+                               double prior_log_sd, int max_solves)
     : potential_(std::move(potential)),
       scene_(scene),
       space_(std::move(space)),
@@ -29,15 +29,17 @@ DrapeObjective::DrapeObjective(Potential potential, const Scene& scene, Paramete
       loss_(loss),
       prior_log_sd_(prior_log_sd),
       prior_mean_(space_.encode(space_.reference)),
-      continuation_(continuation) {
+      max_solves_(max_solves) {
   if (loss_ == OutlineLoss::coverage && !observation_.centre_known)
     throw std::invalid_argument("coverage loss: the centre of the observation must be known");
   if (!(observation_.noise > 0))
     throw std::invalid_argument("observation noise must be > 0 m");
 }
 
-void DrapeObjective::start_from(const Potential& potential, BranchPoint point) {
+void DrapeObjective::start_from(const Potential& potential, BranchPoint point,
+                                const ContinuationOptions& continuation) {
   potential_ = potential;
+  continuation_ = continuation;
   known_.clear();
   known_.push_back(std::move(point));
 }
@@ -60,6 +62,7 @@ const BranchPoint* DrapeObjective::drape_at(const VecX& u) {
     std::rotate(nearest, nearest + 1, known_.end());
     return &known_.back();
   }
+  if (work_.solves >= max_solves_) return nullptr;
   std::optional<BranchPoint> reached =
       follow_branch(potential_, space_, *nearest, z, continuation_, &work_);
   if (!reached) return nullptr;

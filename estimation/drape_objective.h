@@ -37,16 +37,16 @@ enum class OutlineLoss { profile, coverage };
 class DrapeObjective {
  public:
   DrapeObjective(Potential potential, const Scene& scene, ParameterSpace space,
-                 OutlineObservation observation, OutlineLoss loss, double prior_log_sd,
-                 ContinuationOptions continuation);
+                 OutlineObservation observation, OutlineLoss loss, double prior_log_sd, int max_solves);
 
   int unknowns() const { return space_.size() + (observation_.centre_known ? 0 : 2); }
   int residuals() const { return kProfileSize + (has_prior() ? space_.size() : 0); }
   const ParameterSpace& space() const { return space_; }
 
   /// The only drape known from here on; clears what was known before. `potential` carries the guide
-  /// under which it is in equilibrium.
-  void start_from(const Potential& potential, BranchPoint point);
+  /// under which it is in equilibrium. From here on branches are followed as `continuation` says.
+  void start_from(const Potential& potential, BranchPoint point,
+                  const ContinuationOptions& continuation);
 
   /// Residuals and, if wanted, their Jacobian (residuals x unknowns). False where the branch is lost.
   bool residuals_at(const VecX& u, VecX& r, MatX* jacobian);
@@ -54,7 +54,7 @@ class DrapeObjective {
   /// J and, by one adjoint solve, its gradient. False where the branch is lost.
   bool cost_at(const VecX& u, double& cost, VecX* gradient);
 
-  /// The drape at u, nothing where the branch is lost. Valid until the next call.
+  /// The drape at u, nothing where the branch is lost or max_solves are spent. Valid until the next call.
   const BranchPoint* drape_at(const VecX& u);
 
   Vec2 centre_of(const VecX& u) const;
@@ -71,6 +71,7 @@ class DrapeObjective {
   OutlineLoss loss_;
   double prior_log_sd_;
   VecX prior_mean_;
+  int max_solves_;
   ContinuationOptions continuation_;
   ContinuationCost work_;
   std::vector<BranchPoint> known_;  // the last one was reached last

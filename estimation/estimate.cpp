@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -24,7 +25,7 @@ class Estimation {
         observation_(observation),
         options_(options),
         objective_(model, scene, {options.parameters, start}, observation, options.loss,
-                   options.prior_log_sd, options.continuation) {
+                   options.prior_log_sd, options.max_solves) {
     result_.start = result_.fabric = start;
     u_ = VecX::Zero(objective_.unknowns());
     u_.head(objective_.space().size()) = objective_.space().encode(start);
@@ -94,9 +95,19 @@ class Estimation {
     equilibrium.protocol = result_.equilibrium.protocol;
     result_.kappa = kappa;
     const ParameterSpace& space = objective_.space();
-    objective_.start_from(potential_, make_branch_point(potential_, space, u_.head(space.size()),
-                                                        std::move(equilibrium)));
+    objective_.start_from(
+        potential_,
+        make_branch_point(potential_, space, u_.head(space.size()), std::move(equilibrium)),
+        kappa > 0 ? guided_continuation() : options_.continuation);
     return true;
+  }
+
+  /// A guide holds the outline while the cloth below snaps from one state to the next: such steps
+  /// count, for the outline hardly changes and the branch is chosen only when the guide is gone.
+  ContinuationOptions guided_continuation() const {
+    ContinuationOptions guided = options_.continuation;
+    guided.largest_deviation = std::numeric_limits<double>::infinity();
+    return guided;
   }
 
   Minimum fit_stage(double tolerance) {

@@ -27,7 +27,9 @@ struct EstimateOptions {
   double prior_log_sd = 0;                  ///< of ln p about the start; 0: no prior
   int max_iterations = 60;                  ///< of each fit
   EquilibriumOptions equilibrium;           ///< of the first, guided solve
-  ContinuationOptions continuation;
+  /// Along the unguided fit: trials that lose the branch are cheap to give up, Ceres shortens them.
+  ContinuationOptions continuation{.halvings = 2, .largest_leap = 0.7};
+  int max_solves = 400;  ///< forward solves of one fit, over all stages
 };
 
 enum class EstimateOutcome {

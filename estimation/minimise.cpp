@@ -7,6 +7,8 @@
 namespace drape {
 namespace {
 
+constexpr double kScalingDamping = 1e-3;  // of the largest diagonal entry of J^T J
+
 class ProfileResiduals : public ceres::CostFunction {
  public:
   explicit ProfileResiduals(DrapeObjective& objective) : objective_(objective) {
@@ -31,25 +33,46 @@ class ProfileResiduals : public ceres::CostFunction {
   DrapeObjective& objective_;
 };
 
+/// The cost in scaled unknowns v, u = origin + scaling v.
 class AdjointCost : public ceres::FirstOrderFunction {
  public:
-  AdjointCost(DrapeObjective& objective, const MinimiseOptions& options)
-      : objective_(objective), options_(options) {}
+  AdjointCost(DrapeObjective& objective, VecX origin, MatX scaling, const MinimiseOptions& options)
+      : objective_(objective),
+        origin_(std::move(origin)),
+        scaling_(std::move(scaling)),
+        options_(options) {}
   int NumParameters() const override { return objective_.unknowns(); }
-  bool Evaluate(const double* u_data, double* cost, double* gradient) const override {
-    const Eigen::Map<const VecX> u(u_data, objective_.unknowns());
+  VecX unknowns_at(const double* v) const {
+    return origin_ + scaling_ * Eigen::Map<const VecX>(v, objective_.unknowns());
+  }
+  bool Evaluate(const double* v, double* cost, double* gradient) const override {
+    const VecX u = unknowns_at(v);
     if ((u.array() < options_.lower.array()).any() || (u.array() > options_.upper.array()).any())
       return false;
     VecX g;
     if (!objective_.cost_at(u, *cost, gradient != nullptr ? &g : nullptr)) return false;
-    if (gradient != nullptr) Eigen::Map<VecX>(gradient, g.size()) = g;
+    if (gradient != nullptr) Eigen::Map<VecX>(gradient, g.size()) = scaling_.transpose() * g;
     return true;
   }
 
  private:
   DrapeObjective& objective_;
+  VecX origin_;
+  MatX scaling_;
   const MinimiseOptions& options_;
 };
+
+/// L^-T of the damped Gauss-Newton matrix J^T J = L L^T at the start, where the sensitivities are known
+/// anyway: in these units BFGS begins with a Gauss-Newton step instead of one along the gradient.
+MatX gauss_newton_scaling(DrapeObjective& objective, const VecX& u) {
+  VecX r;
+  MatX J;
+  const Eigen::Index n = u.size();
+  if (!objective.residuals_at(u, r, &J)) return MatX::Identity(n, n);
+  MatX normal = J.transpose() * J;
+  normal.diagonal().array() += kScalingDamping * normal.diagonal().maxCoeff();
+  return normal.llt().matrixU().solve(MatX::Identity(n, n));
+}
 
 class StopAtSufficientCost : public ceres::IterationCallback {
  public:
@@ -105,7 +128,10 @@ Minimum levenberg_marquardt(DrapeObjective& objective, const VecX& u,
 Minimum bfgs(DrapeObjective& objective, const VecX& u, const MinimiseOptions& options) {
   Minimum minimum;
   minimum.u = u;
-  const ceres::GradientProblem problem(new AdjointCost(objective, options));
+  auto* const cost =  // owned by the problem
+      new AdjointCost(objective, u, gauss_newton_scaling(objective, u), options);
+  const ceres::GradientProblem problem(cost);
+  VecX v = VecX::Zero(u.size());
   ceres::GradientProblemSolver::Options ceres_options;
   ceres_options.line_search_direction_type = ceres::BFGS;
   ceres_options.max_num_iterations = options.max_iterations;
@@ -116,7 +142,8 @@ Minimum bfgs(DrapeObjective& objective, const VecX& u, const MinimiseOptions& op
   ceres_options.callbacks.push_back(&stop);
   ceres_options.logging_type = ceres::SILENT;
   ceres::GradientProblemSolver::Summary summary;
-  ceres::Solve(ceres_options, problem, minimum.u.data(), &summary);
+  ceres::Solve(ceres_options, problem, v.data(), &summary);
+  minimum.u = cost->unknowns_at(v.data());
   keep(summary, minimum);
   return minimum;
 }

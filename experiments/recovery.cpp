@@ -24,6 +24,8 @@ struct BranchTest {
 BranchTest follow_target(Potential potential, const Record& record, const Fabric& start,
                          const EstimateOptions& options) {
   BranchTest test;
+  ContinuationOptions patient;
+  patient.equilibrium.tolerance = options.equilibrium.tolerance;
   if (!converged(record)) return test;
   potential.set_fabric(record.fabric);
   const Equilibrium target = solve_equilibrium(potential, record.positions, options.equilibrium);
@@ -33,9 +35,9 @@ BranchTest follow_target(Potential potential, const Record& record, const Fabric
   const VecX truth = space.encode(record.fabric), first = space.encode(start);
   const auto there = follow_branch(potential, space,
                                    make_branch_point(potential, space, truth, target), first,
-                                   options.continuation);
+                                   patient);
   if (!there) return test;
-  const auto back = follow_branch(potential, space, *there, truth, options.continuation);
+  const auto back = follow_branch(potential, space, *there, truth, patient);
   test.start = there->equilibrium;
   test.start->protocol = record.stats.protocol + ", continued";
   test.shared = back && largest_distance(back->equilibrium.x, record.positions) < kSharedBranch;
