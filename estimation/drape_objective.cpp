@@ -40,6 +40,7 @@ void DrapeObjective::start_from(const Potential& potential, BranchPoint point,
                                 const ContinuationOptions& continuation) {
   potential_ = potential;
   continuation_ = continuation;
+  refused_ = false;
   known_.clear();
   known_.push_back(std::move(point));
 }
@@ -62,10 +63,11 @@ const BranchPoint* DrapeObjective::drape_at(const VecX& u) {
     std::rotate(nearest, nearest + 1, known_.end());
     return &known_.back();
   }
-  if (work_.solves >= max_solves_) return nullptr;
-  std::optional<BranchPoint> reached =
-      follow_branch(potential_, space_, *nearest, z, continuation_, &work_);
-  if (!reached) return nullptr;
+  std::optional<BranchPoint> reached;
+  if (work_.solves < max_solves_)
+    reached = follow_branch(potential_, space_, *nearest, z, continuation_, &work_);
+  refused_ = !reached;
+  if (refused_) return nullptr;
   if (known_.size() >= kKnownDrapes) known_.erase(known_.begin());
   known_.push_back(*std::move(reached));
   return &known_.back();

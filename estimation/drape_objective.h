@@ -58,6 +58,9 @@ class DrapeObjective {
   const BranchPoint* drape_at(const VecX& u);
 
   Vec2 centre_of(const VecX& u) const;
+  /// Whether the last drape asked for that was not known yet was refused. A minimiser that shrinks its steps because of
+  /// this has not converged.
+  bool refused() const { return refused_; }
   const ContinuationCost& work() const { return work_; }
 
  private:
@@ -74,6 +77,7 @@ class DrapeObjective {
   int max_solves_;
   ContinuationOptions continuation_;
   ContinuationCost work_;
+  bool refused_ = false;
   std::vector<BranchPoint> known_;  // the last one was reached last
 };
 

@@ -36,7 +36,7 @@ enum class EstimateOutcome {
   succeeded,      ///< guide released, converged, certified minimum
   no_start,       ///< no guided drape was found for the first parameters
   branch_lost,    ///< releasing the guide left the branch
-  not_converged,  ///< the iteration limit was reached first
+  not_converged,  ///< iterations or solves ran out, or the last steps all left the branch
 };
 std::string_view name(EstimateOutcome outcome);
 

@@ -88,12 +88,13 @@ class StopAtSufficientCost : public ceres::IterationCallback {
 
 /// What both of Ceres' solvers report.
 template <typename Summary>
-void keep(const Summary& summary, Minimum& minimum) {
+void keep(const Summary& summary, const DrapeObjective& objective, Minimum& minimum) {
   minimum.initial_cost = summary.initial_cost;
   minimum.cost = summary.final_cost;
   minimum.iterations = static_cast<int>(summary.iterations.size());
-  minimum.converged = summary.termination_type == ceres::CONVERGENCE ||
-                      summary.termination_type == ceres::USER_SUCCESS;
+  minimum.converged =
+      summary.termination_type == ceres::USER_SUCCESS ||
+      (summary.termination_type == ceres::CONVERGENCE && !objective.refused());
   minimum.message = summary.message;
 }
 
@@ -121,7 +122,7 @@ Minimum levenberg_marquardt(DrapeObjective& objective, const VecX& u,
   ceres_options.num_threads = 1;
   ceres::Solver::Summary summary;
   ceres::Solve(ceres_options, &problem, &summary);
-  keep(summary, minimum);
+  keep(summary, objective, minimum);
   return minimum;
 }
 
@@ -144,7 +145,7 @@ Minimum bfgs(DrapeObjective& objective, const VecX& u, const MinimiseOptions& op
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(ceres_options, problem, v.data(), &summary);
   minimum.u = cost->unknowns_at(v.data());
-  keep(summary, minimum);
+  keep(summary, objective, minimum);
   return minimum;
 }
 

@@ -23,7 +23,7 @@ struct Minimum {
   VecX u;
   double initial_cost = 0, cost = 0;
   int iterations = 0;
-  bool converged = false;  ///< a tolerance was met
+  bool converged = false;  ///< a tolerance was met, and not for want of drapes to step to
   std::string message;     ///< Ceres' own words
 };
 

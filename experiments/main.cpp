@@ -9,6 +9,8 @@
 #include <stdexcept>
 
 #include "core/records.h"
+#include "estimation/photograph.h"
+#include "estimation/tag.h"
 #include "experiments/command_line.h"
 #include "experiments/config_keys.h"
 #include "experiments/config_text.h"
@@ -50,7 +52,20 @@ void print_content(const OutputFolder& folder) {
   for (const std::filesystem::path& path : visible) std::cout << "  " << path.string() << "\n";
 }
 
+/// Reads the input files of a run before anything is written: throws what the run itself would.
+void check_inputs(const Settings& settings) {
+  const Kind kind = settings.experiment.kind;
+  if (kind == Kind::photograph)
+    read_photograph(settings.photograph.file, 1e-3 * settings.photograph.mm_per_pixel,
+                    settings.scene);
+  else if (kind == Kind::estimate && !settings.estimate.dataset.empty())
+    read_header(settings.estimate.dataset);
+  else if (kind == Kind::dataset && !settings.dataset.table.empty())
+    read_tag_table(settings.dataset.table);
+}
+
 int run(const Settings& settings, const std::filesystem::path& out) {
+  check_inputs(settings);
   const auto begin = std::chrono::steady_clock::now();
   OutputFolder folder(out, settings);
   if (folder.state() == OutputFolder::State::finished) {

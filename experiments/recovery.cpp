@@ -11,6 +11,7 @@ namespace drape {
 namespace {
 
 constexpr double kSharedBranch = 1e-6;  // [m]
+constexpr double kBranchStep = 0.1;     // of a log parameter: small beside the snaps of a drape
 constexpr int kNoiseHarmonics = 15;
 constexpr double kPi = 3.14159265358979323846;
 
@@ -24,7 +25,7 @@ struct BranchTest {
 BranchTest follow_target(Potential potential, const Record& record, const Fabric& start,
                          const EstimateOptions& options) {
   BranchTest test;
-  ContinuationOptions patient;
+  ContinuationOptions patient{.largest_step = kBranchStep};
   patient.equilibrium.tolerance = options.equilibrium.tolerance;
   if (!converged(record)) return test;
   potential.set_fabric(record.fabric);

@@ -87,7 +87,8 @@ TEST(Config, KeysReachTheirMembers) {
   const Settings s = parse(
       "[experiment]\nkind = 'robustness'\nseed = 9223372036854775807\n"
       "[fabric]\nk_bv = 3e-6\nbending_threshold = 'radius'\n[scene]\ngravity = 2\n"
-      "[mesh]\nvertices = 777\n[estimate]\nparameters = ['k_u', 't_bv']\nguide = false\n"
+      "[mesh]\nvertices = 777\n[estimate]\nparameters = ['k_u', 't_bv']\nguide = [0.5]\n"
+      "start = 'continued'\n"
       "[robustness]\nvertices = [400]\n");
   EXPECT_EQ(s.experiment.kind, Kind::robustness);
   EXPECT_EQ(s.experiment.seed, 9223372036854775807u);
@@ -97,7 +98,8 @@ TEST(Config, KeysReachTheirMembers) {
   EXPECT_EQ(s.scene.gravity, 2);
   EXPECT_EQ(s.mesh.vertices, 777);
   EXPECT_EQ(s.estimate.parameters, (std::vector<Parameter>{Parameter::k_u, Parameter::t_bv}));
-  EXPECT_FALSE(s.estimate.guide);
+  EXPECT_EQ(s.estimate.guide, std::vector<double>{0.5});
+  EXPECT_EQ(s.estimate.start, EstimateStart::continued);
   EXPECT_EQ(s.robustness.vertices, std::vector<int>{400});
 }
 
@@ -131,7 +133,7 @@ TEST(Config, WrongType) {
       contains(error_of("[mesh]\nvertices = 1000.0\n"), "f.toml:2:12: mesh.vertices is a "));
   EXPECT_TRUE(contains(error_of("[mesh]\nvertices = 1979-05-27\n"), "is a date or time"));
   EXPECT_TRUE(contains(error_of("[experiment]\nkind = 3\n"), "f.toml:2:8: experiment.kind is a "));
-  EXPECT_TRUE(contains(error_of("[estimate]\nguide = 1\n"), "must be true or false"));
+  EXPECT_TRUE(contains(error_of("[estimate]\nguide = true\n"), "must be a list of"));
   EXPECT_TRUE(contains(error_of("[estimate]\nrecords = 1\n"), "must be a list of whole numbers"));
   EXPECT_TRUE(contains(error_of("[estimate]\nrecords = [1,\n 2.5]\n"), "f.toml:3:2: "));
   EXPECT_TRUE(contains(error_of("[mesh.vertices]\na = 1\n"), "mesh.vertices is a section"));

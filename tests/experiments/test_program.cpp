@@ -2,9 +2,15 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
+#include "core/hdf5_file.h"
 #include "tests/experiments/scratch_folder.h"
 
 namespace drape {
@@ -15,6 +21,21 @@ struct Ended {
   std::string text;  // stdout and stderr
   bool says(const std::string& part) const { return text.find(part) != std::string::npos; }
 };
+
+using GreyOf = bool (*)(int column, int row);
+
+bool in_disc(int column, int row, int centre_column, int centre_row, int radius) {
+  const int x = column - centre_column, y = row - centre_row;
+  return x * x + y * y <= radius * radius;
+}
+
+/// A binary PGM of 128 x 128 pixels, white where `white` holds.
+std::string drawn(GreyOf white) {
+  std::string image = "P5\n128 128\n255\n";
+  for (int row = 0; row < 128; ++row)
+    for (int column = 0; column < 128; ++column) image += white(column, row) ? '\xff' : '\0';
+  return image;
+}
 
 class Program : public testing::Test {
  protected:
@@ -34,6 +55,13 @@ class Program : public testing::Test {
     EXPECT_EQ(ended.exit_code, 2) << arguments << "\n" << ended.text;
     EXPECT_TRUE(ended.says(message)) << arguments << "\n" << ended.text;
     EXPECT_FALSE(std::filesystem::exists(scratch / "out")) << arguments;
+  }
+
+  // The same, where the message is a single line.
+  void expect_refused_in_a_line(const std::string& arguments, const std::string& message) const {
+    expect_refused(arguments, message);
+    const std::string text = drape(arguments).text;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
   }
 
   void SetUp() override {
@@ -113,6 +141,62 @@ TEST_F(Program, EstimateNeedsItsInput) {
   expect_refused("estimate --mm-per-pixel 1 --out out", "--photo");
 }
 
+TEST_F(Program, BadParameters) {
+  for (const char* value : {"-2e-6", "0", "nan", "inf", "-inf"}) {
+    scratch.write("b.toml", "[experiment]\nkind = 'drape'\n[fabric]\nk_bu = " +
+                                std::string(value) + "\n");
+    expect_refused_in_a_line("run b.toml --out out", "b.toml:4:8: fabric.k_bu = ");
+    expect_refused_in_a_line("run a.toml --out out --set fabric.areal_density=" +
+                                 std::string(value),
+                             "must be a finite number > 0 kg/m^2");
+  }
+  expect_refused_in_a_line("run a.toml --out out --set fabric.t_bu=1.01", "fabric.t_bu = 1.01");
+  expect_refused_in_a_line("run a.toml --out out --set fabric.k_w=1",
+                           "unknown key 'fabric.k_w'; did you mean 'k_");
+}
+
+TEST_F(Program, ImagesThatAreNoSilhouette) {
+  // 128 pixels of 2.78 mm: a drape has a radius between 33 and 53 of them
+  const std::vector<std::tuple<std::string, std::string, std::string>> images{
+      {"uniform.pgm", drawn([](int, int) { return false; }), "the image is uniform"},
+      {"two.pgm",
+       drawn([](int c, int r) { return in_disc(c, r, 35, 64, 25) || in_disc(c, r, 93, 64, 25); }),
+       "several blobs"},
+      {"border.pgm", drawn([](int c, int r) { return in_disc(c, r, 30, 64, 45); }),
+       "touches the image's border"},
+      {"hole.pgm",
+       drawn([](int c, int r) { return in_disc(c, r, 64, 64, 45) && !in_disc(c, r, 64, 64, 9); }),
+       "has a hole"},
+      {"small.pgm", drawn([](int c, int r) { return in_disc(c, r, 64, 64, 25); }),
+       "a drape lies between its support"},
+      {"text.png", "not an image", "not an image"},
+      {"empty.png", "", "the file is empty"}};
+  for (const auto& [name, content, message] : images) {
+    scratch.write(name, content);
+    expect_refused_in_a_line(
+        "estimate --photo " + name + " --mm-per-pixel 2.78 --density .2 --out out", message);
+    EXPECT_EQ(scratch.read(name), content);
+  }
+}
+
+TEST_F(Program, FilesThatAreNoRecords) {
+  {
+    const hdf5::Lock lock;
+    hdf5::File file = hdf5::File::create(scratch / "other.h5");
+    file.set_attribute<std::string>("/", "schema", "somebody-elses");
+    file.write<double>("/table", {3}, {3}, {1, 2, 3});
+    file.close();
+  }
+  scratch.write("damaged.h5", "\x89HDF\r\n\x1a\n");
+  for (const std::string name : {"other.h5", "damaged.h5", "a.toml"}) {
+    const std::string before = scratch.read(name);
+    expect_refused_in_a_line("info " + name, name);
+    expect_refused_in_a_line("estimate --dataset " + name + " --records 0 --out out", name);
+    EXPECT_EQ(scratch.read(name), before);
+  }
+  EXPECT_TRUE(drape("info other.h5").says("drape-records"));
+}
+
 TEST_F(Program, RunsOnceAndThenLeavesTheFolderAlone) {
   const Ended first = drape("run a.toml --out out --threads 1");
   ASSERT_EQ(first.exit_code, 0) << first.text;
@@ -141,6 +225,13 @@ TEST_F(Program, RefusesAFolderWithOtherContent) {
   EXPECT_TRUE(ended.says("has content that is no run")) << ended.text;
   EXPECT_FALSE(std::filesystem::exists(scratch / "full/config.toml"));
   EXPECT_EQ(scratch.read("full/thesis.tex"), "x");
+}
+
+TEST_F(Program, RefusesAFileAsTheFolder) {
+  scratch.write("full", "x");
+  const Ended ended = drape("run a.toml --out full");
+  EXPECT_EQ(ended.exit_code, 2) << ended.text;
+  EXPECT_EQ(scratch.read("full"), "x");
 }
 
 TEST_F(Program, FailedSolveIsExitCode3) {
