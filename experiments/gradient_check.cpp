@@ -183,6 +183,8 @@ GradientCheck check_gradient(const Settings& settings,
   const Equilibrium equilibrium =
       cold.converged() ? solve_to_floor(potential, cold.x) : cold;
   result.status = equilibrium.converged() ? "ok" : name(equilibrium.status);
+  result.record = make_record(settings, potential, equilibrium);
+  result.record.stats.protocol = cold.protocol;
   if (!equilibrium.converged()) return result;
   result.wings = static_cast<int>(potential.mesh().wings.size());
   result.wings_past_threshold = potential.wings_past_threshold(equilibrium.x);

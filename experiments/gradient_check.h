@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/discretization.h"
+#include "core/records.h"
 #include "experiments/settings.h"
 
 namespace drape {
@@ -36,6 +37,7 @@ struct GradientCheck {
   double adjoint_cpu_seconds = 0;     ///< of outline, loss and adjoint gradient, given the factor
   double unit_cpu_seconds = 0;        ///< see factorization_unit.h
   int wings = 0, wings_past_threshold = 0;
+  Record record;  ///< of the drape at which the gradient was checked
 };
 
 /// Drapes the fabric and checks the gradient of settings.gradient_check.loss there. `seed`: of the

@@ -69,7 +69,7 @@ RunOutcome run_dataset(const Settings& settings, OutputFolder& folder) {
   const std::vector<Record> requested = requested_records(settings);
   const int count = static_cast<int>(requested.size());
   const auto discretization = make_discretization(settings);
-  const RecordStore store(folder, records_header(settings, discretization->mesh()), count);
+  const RecordStore store(folder.path(), records_header(settings, discretization->mesh()), count);
   const int resumed = store.finished();
   const double start = process_cpu_seconds();
   {

@@ -14,7 +14,7 @@ RunOutcome drape_once(const Settings& settings, OutputFolder& folder) {
   const Equilibrium equilibrium = drape(settings, potential);
   const double unit = factorization_unit(potential, equilibrium.x);
 
-  const RecordStore store(folder, records_header(settings, potential.mesh()), 1);
+  const RecordStore store(folder.path(), records_header(settings, potential.mesh()), 1);
   Record record = make_record(settings, potential, equilibrium);
   record.id = "1";
   store.save(0, record);

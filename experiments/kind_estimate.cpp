@@ -160,7 +160,7 @@ RunOutcome run_estimate(const Settings& settings, OutputFolder& folder) {
   const Targets targets =
       settings.estimate.dataset.empty() ? random_targets(settings) : read_targets(settings);
   const int count = static_cast<int>(targets.records.size());
-  const RecordStore store(folder, targets.header, count);
+  const RecordStore store(folder.path(), targets.header, count);
   {
     Progress progress("estimate", count, store.finished());
     for_each_item(count, settings.experiment.thread_count(), [&](int i) {

@@ -14,6 +14,7 @@
 #include "experiments/parallel_items.h"
 #include "experiments/progress.h"
 #include "experiments/random_fabric.h"
+#include "experiments/record_store.h"
 #include "experiments/statistics.h"
 
 namespace drape {
@@ -36,14 +37,19 @@ Fabric checked_fabric(std::uint64_t seed, int index) {
   return random_fabric(random, box);
 }
 
+/// Checks the `index`-th fabric; `record` becomes its record, whatever happens.
 Json check(const Settings& settings, std::shared_ptr<const Discretization> discretization,
-           int index) {
+           int index, Record& record) {
   const std::uint64_t seed =
       seed_of_item(settings.experiment.seed, static_cast<std::uint64_t>(index));
   Json item = {{"index", index}, {"seed", seed}};
   try {
+    const Fabric fabric = checked_fabric(seed, index);
+    record = failed_record(settings, discretization->mesh(), fabric, "not solved");
     const GradientCheck result =
-        check_gradient(settings, discretization, checked_fabric(seed, index), seed_of_item(seed, 0));
+        check_gradient(settings, discretization, fabric, seed_of_item(seed, 0));
+    record = result.record;
+    record.id = record.name = std::to_string(index);
     item["status"] = result.status;
     if (result.status != "ok") return item;
     item["forward_cpu_seconds"] = result.forward_cpu_seconds;
@@ -144,17 +150,22 @@ RunOutcome run_gradient_check(const Settings& settings, OutputFolder& folder) {
   const int fabrics = settings.gradient_check.fabrics;
   const JsonStore store(folder, "fabrics");
   const auto discretization = make_discretization(settings);
+  const RecordStore records(folder.path(), records_header(settings, discretization->mesh()), fabrics);
   int resumed = 0;
   for (int i = 0; i < fabrics; ++i) resumed += store.has(std::to_string(i));
   {
     Progress progress("gradient check", fabrics, resumed);
     for_each_item(fabrics, settings.experiment.thread_count(), [&](int i) {
       if (store.has(std::to_string(i))) return;
-      store.save(std::to_string(i), check(settings, discretization, i));
+      Record record;
+      const Json item = check(settings, discretization, i, record);
+      records.save(i, record);
+      store.save(std::to_string(i), item);
       progress.advance();
     });
   }
   if (interrupted()) return {"partial", {}};
+  records.consolidate();
 
   std::vector<Json> items;
   for (int i = 0; i < fabrics; ++i) items.push_back(store.load(std::to_string(i)));

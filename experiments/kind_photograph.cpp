@@ -80,7 +80,7 @@ RunOutcome run_photograph(const Settings& settings, OutputFolder& folder) {
       estimate_record(model, settings.scene, result, observation, options.parameters);
   RecordsHeader header = records_header(settings, discretization->mesh());
   header.grid = photograph.grid;
-  const RecordStore store(folder, header, 1);
+  const RecordStore store(folder.path(), header, 1);
   store.save(0, record);
   store.consolidate();
   draw_figure("estimate_overlay.py", folder / "results.h5", folder / "overlay");

@@ -15,6 +15,7 @@
 #include "experiments/parallel_items.h"
 #include "experiments/progress.h"
 #include "experiments/random_fabric.h"
+#include "experiments/record_store.h"
 #include "experiments/statistics.h"
 
 namespace drape {
@@ -28,15 +29,19 @@ std::string item_name(int vertices, int index) {
   return std::to_string(vertices) + "_" + std::to_string(index);
 }
 
+/// Drapes the `index`-th random fabric; `record` becomes its record, whatever happens.
 Json solve(const Settings& settings, std::shared_ptr<const Discretization> discretization,
-           int index) {
+           int index, Record& record) {
   const std::uint64_t seed =
       seed_of_item(settings.experiment.seed, static_cast<std::uint64_t>(index));
   Json item = {{"index", index}, {"seed", seed}};
   try {
     Random random(seed);
-    const Potential potential = make_potential(discretization, random_fabric(random), settings);
+    const Fabric fabric = random_fabric(random);
+    record = failed_record(settings, discretization->mesh(), fabric, "not solved");
+    const Potential potential = make_potential(discretization, fabric, settings);
     const Equilibrium equilibrium = drape(settings, potential);
+    record = make_record(settings, potential, equilibrium);
     item["status"] = name(equilibrium.status);
     item["vertices"] = potential.mesh().vertex_count();
     item["residual"] = equilibrium.residual;
@@ -48,8 +53,9 @@ Json solve(const Settings& settings, std::shared_ptr<const Discretization> discr
     item["factorization_equivalents"] =
         equilibrium.cpu_seconds / factorization_unit(potential, equilibrium.x);
   } catch (const std::exception& error) {
-    item["status"] = error.what();
+    item["status"] = record.stats.status = error.what();
   }
+  record.id = record.name = std::to_string(index);
   return item;
 }
 
@@ -127,16 +133,22 @@ RunOutcome run_robustness(const Settings& settings, OutputFolder& folder) {
   for (int vertices : settings.robustness.vertices) {
     int resumed = 0;
     for (int i = 0; i < fabrics; ++i) resumed += store.has(item_name(vertices, i));
-    if (resumed < fabrics) {
+    const std::filesystem::path part = folder / ("vertices_" + std::to_string(vertices));
+    if (!std::filesystem::exists(part / "results.h5")) {
       const auto discretization = make_discretization(settings, vertices);
+      const RecordStore records(part, records_header(settings, discretization->mesh()), fabrics);
       Progress progress("robustness, " + std::to_string(vertices) + " vertices", fabrics, resumed);
       for_each_item(fabrics, settings.experiment.thread_count(), [&](int i) {
         if (store.has(item_name(vertices, i))) return;
-        store.save(item_name(vertices, i), solve(settings, discretization, i));
+        Record record;
+        const Json item = solve(settings, discretization, i, record);
+        records.save(i, record);
+        store.save(item_name(vertices, i), item);
         progress.advance();
       });
+      if (interrupted()) return {"partial", {}};
+      records.consolidate();
     }
-    if (interrupted()) return {"partial", {}};
     std::vector<Json> items;
     for (int i = 0; i < fabrics; ++i) items.push_back(store.load(item_name(vertices, i)));
     const Json row = account(items);

@@ -5,7 +5,7 @@
 
 namespace drape {
 
-RecordStore::RecordStore(const OutputFolder& folder, RecordsHeader header, int count)
+RecordStore::RecordStore(const std::filesystem::path& folder, RecordsHeader header, int count)
     : table_(folder / "results.h5"),
       records_(folder / "records"),
       header_(std::move(header)),

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/records.h"
-#include "experiments/output_folder.h"
 
 namespace drape {
 
@@ -16,7 +15,7 @@ namespace drape {
 class RecordStore {
  public:
   /// Takes up what the folder holds of `count` records.
-  RecordStore(const OutputFolder& folder, RecordsHeader header, int count);
+  RecordStore(const std::filesystem::path& folder, RecordsHeader header, int count);
 
   int count() const { return count_; }
   /// Whether the record was finished, in this session or before.
