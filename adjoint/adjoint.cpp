@@ -7,9 +7,9 @@ namespace drape {
 
 void require_minimum(const Potential& potential, const Equilibrium& equilibrium) {
   if (!equilibrium.converged() || !equilibrium.factor)
-    throw std::invalid_argument(
-        "adjoint: the state is no converged, certified minimum (status " +
-        std::string(name(equilibrium.status)) + "); derivatives exist only at an equilibrium");
+    throw std::invalid_argument("adjoint: the state is no converged, certified minimum (status " +
+                                std::string(name(equilibrium.status)) +
+                                "); derivatives exist only at an equilibrium");
   if (equilibrium.x.size() != 3 * potential.mesh().vertex_count())
     throw std::invalid_argument("adjoint: the equilibrium belongs to another mesh");
 }

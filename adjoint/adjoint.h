@@ -1,7 +1,7 @@
 // The adjoint gradient of a functional of the equilibrium: one solve for all parameters.
 //
-// At an equilibrium g(x, p) = dE/dx = 0, so H dx/dp = -dg/dp. For L(x): solve H lambda = -dL/dx with
-// the factor of the true Hessian that the equilibrium carries; then dL/dp = lambda^T dg/dp.
+// At an equilibrium g(x, p) = dE/dx = 0, so H dx/dp = -dg/dp. For L(x): solve H lambda = -dL/dx
+// with the factor of the true Hessian that the equilibrium carries; then dL/dp = lambda^T dg/dp.
 #pragma once
 
 #include "core/equilibrium.h"

@@ -1,4 +1,5 @@
-// Losses of a drape's outline, each with its exact derivative with respect to the outline's corners.
+// Losses of a drape's outline, each with its exact derivative with respect to the outline's
+// corners.
 //
 //   profile:           L = 1/2 mean over 360 directions of (rho(alpha) - rho_obs(alpha))^2   [m^2]
 //   coverage:          L = 1/2 sum over pixels of (c - c_obs)^2 times the area of a pixel    [m^2]

@@ -1,7 +1,8 @@
 // Forward sensitivities dx/dp = -H^-1 dg/dp of an equilibrium: one solve a parameter.
 //
-// They make the Gauss-Newton Jacobian of a profile, predict the equilibrium of a near-by fabric, and
-// are the second route to every adjoint gradient: (d rho/dp)^T dL/d rho must equal it to rounding.
+// They make the Gauss-Newton Jacobian of a profile, predict the equilibrium of a near-by fabric,
+// and are the second route to every adjoint gradient: (d rho/dp)^T dL/d rho must equal it to
+// rounding.
 #pragma once
 
 #include <vector>

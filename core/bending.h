@@ -1,4 +1,5 @@
-// Bending energy of one wing (Eqs. 3 to 11 of Ju et al. 2024) as a function of its fold angle delta.
+// Bending energy of one wing (Eqs. 3 to 11 of Ju et al. 2024) as a function of its fold angle
+// delta.
 //
 //   E = k_b(phi) w f(|delta|; s_b(phi), delta*),   w = e/L_a + e/L_b   (no factor 1/2, Eq. 3)
 //

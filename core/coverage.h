@@ -8,12 +8,13 @@
 
 namespace drape {
 
-/// A grid of square pixels. Row 0 is the top row (+y); `origin` is the lower left corner of the image.
+/// A grid of square pixels. Row 0 is the top row (+y); `origin` is the lower left corner of the
+/// image.
 struct PixelGrid {
   int rows = 256;
   int columns = 256;
-  double pixel_size = 1.39e-3;   ///< [m]
-  Vec2 origin = Vec2::Zero();    ///< lower left corner [m]
+  double pixel_size = 1.39e-3;  ///< [m]
+  Vec2 origin = Vec2::Zero();   ///< lower left corner [m]
 };
 
 /// A square grid of `pixels` x `pixels` centred on the instrument's axis that covers `width` [m].

@@ -32,8 +32,8 @@ Triangles delaunay(const Points2& points) {
 
   std::vector<double> coordinates(points.data(), points.data() + points.size());
   std::string command = "qhull d Qbb Qt Q12";  // Delaunay, scaled lifting, triangulated facets
-  if (qh_new_qhull(qh, 2, static_cast<int>(points.rows()), coordinates.data(), False, command.data(),
-                   qhull.log, qhull.log) != 0)
+  if (qh_new_qhull(qh, 2, static_cast<int>(points.rows()), coordinates.data(), False,
+                   command.data(), qhull.log, qhull.log) != 0)
     throw std::runtime_error("delaunay: Qhull failed on " + std::to_string(points.rows()) +
                              " points");
 

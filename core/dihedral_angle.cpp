@@ -31,11 +31,11 @@ void add_gradient(const Side& side, int apex, double l, Vec12& g) {
 void add_hessian(const Side& side, int apex, const Vec3& e, double l, Mat12& H) {
   const double N2 = side.N * side.N, lN = l * side.N, half = 1 / (2 * l * l);
   const double s0 = side.s0, s1 = side.s1;
-  Mat3 M, Q;  // rows and columns: x0, x1, c
+  Mat3 M, Q;                                                      // rows and columns: x0, x1, c
   M << -s0 * s0 / N2 - half, -s0 * s1 / N2 + half, -s0 * l / N2,  //
       -s0 * s1 / N2 + half, -s1 * s1 / N2 - half, -s1 * l / N2,   //
       -s0 * l / N2, -s1 * l / N2, -l * l / N2;
-  Q << s0 / lN, s1 / lN, 1 / side.N,  //
+  Q << s0 / lN, s1 / lN, 1 / side.N,    //
       -s0 / lN, -s1 / lN, -1 / side.N,  //
       0, 0, 0;
   const int corner[3] = {0, 1, apex};

@@ -1,8 +1,8 @@
 // The fold angle of a wing: delta = pi - theta, where theta is the angle between its two triangles.
 //
-// delta is 0 when the wing is flat and positive for a valley seen from the side of the normals. Corners
-// are the columns of a 3x4 matrix in the order of Wing::vertices: the shared edge x0 -> x1, the apex to
-// its left x2, the apex to its right x3.
+// delta is 0 when the wing is flat and positive for a valley seen from the side of the normals.
+// Corners are the columns of a 3x4 matrix in the order of Wing::vertices: the shared edge x0 -> x1,
+// the apex to its left x2, the apex to its right x3.
 #pragma once
 
 #include <cmath>
@@ -31,9 +31,9 @@ Scalar fold_angle(const Corners4<Scalar>& x) {
 /// d(delta)/dx [1/m], corners in order.
 Vec12 fold_angle_gradient(const Corners4<double>& x);
 
-/// Gradient and Hessian d2(delta)/dx2 [1/m^2] together, since they share their geometry. Closed form:
-/// with unit edge e of length l and, for each side, unit normal n, in-plane unit normal m towards its
-/// apex c and N = twice its area, Hessian_ij = sum over sides [n A_ij^T + A_ji n^T],
+/// Gradient and Hessian d2(delta)/dx2 [1/m^2] together, since they share their geometry. Closed
+/// form: with unit edge e of length l and, for each side, unit normal n, in-plane unit normal m
+/// towards its apex c and N = twice its area, Hessian_ij = sum over sides [n A_ij^T + A_ji n^T],
 /// A_ij = M_ij m + Q_ij e (coefficients in the source file).
 void fold_angle_derivatives(const Corners4<double>& x, Vec12& gradient, Mat12& hessian);
 

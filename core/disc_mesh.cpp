@@ -72,8 +72,8 @@ Triangles annulus_triangles(const Points2& points, int first_clamp, int first_in
   Triangles kept(all.rows(), 3);
   int count = 0;
   for (int t = 0; t < all.rows(); ++t) {
-    const bool on_support = (all.row(t).array() >= first_clamp).all() &&
-                            (all.row(t).array() < first_inside).all();
+    const bool on_support =
+        (all.row(t).array() >= first_clamp).all() && (all.row(t).array() < first_inside).all();
     if (!on_support) kept.row(count++) = all.row(t);
   }
   return kept.topRows(count);
@@ -112,8 +112,8 @@ void relax(Points2& points, int first_clamp, int first_inside, const Scene& scen
     if (!(area[i] > 0)) continue;
     Vec2 target = moment.row(i).transpose() / area[i];
     const double radius = target.norm();
-    target *= std::clamp(radius, scene.support_radius + margin, scene.specimen_radius - margin) /
-              radius;
+    target *=
+        std::clamp(radius, scene.support_radius + margin, scene.specimen_radius - margin) / radius;
     points.row(i) = target;
   }
 }

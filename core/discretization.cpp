@@ -108,8 +108,8 @@ void Discretization::list_block_sources() {
         const int a = slot_[static_cast<size_t>(vertices[i])];
         const int b = slot_[static_cast<size_t>(vertices[j])];
         if (a < 0 || b < 0) continue;
-        entries.push_back({std::min(a, b), std::max(a, b),
-                           {first_block + lower_index(i, j), a < b}});
+        entries.push_back(
+            {std::min(a, b), std::max(a, b), {first_block + lower_index(i, j), a < b}});
       }
   });
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& p, const Entry& q) {
@@ -205,10 +205,10 @@ void Discretization::gather_gradient(const std::vector<double>& corners, VecX& g
 #pragma omp parallel for schedule(static)
   for (int k = 0; k < n; ++k) {
     Vec3 sum = Vec3::Zero();
-    for (int s = corner_start_[static_cast<size_t>(k)]; s < corner_start_[static_cast<size_t>(k) + 1];
-         ++s)
-      sum += Eigen::Map<const Vec3>(corners.data() +
-                                    3 * static_cast<size_t>(corner_sources_[static_cast<size_t>(s)]));
+    for (int s = corner_start_[static_cast<size_t>(k)];
+         s < corner_start_[static_cast<size_t>(k) + 1]; ++s)
+      sum += Eigen::Map<const Vec3>(
+          corners.data() + 3 * static_cast<size_t>(corner_sources_[static_cast<size_t>(s)]));
     gradient.segment<3>(3 * free_vertices_[static_cast<size_t>(k)]) += sum;
   }
 }

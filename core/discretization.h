@@ -1,9 +1,10 @@
-// What all potentials on one mesh share: the order of the free degrees of freedom, the sparsity of the
-// Hessian, where every element block goes, and the symbolic factorisation. Built once a mesh.
+// What all potentials on one mesh share: the order of the free degrees of freedom, the sparsity of
+// the Hessian, where every element block goes, and the symbolic factorisation. Built once a mesh.
 //
 // The free vertices are numbered by nested dissection (METIS), so that every factorisation may take
 // the matrix in its natural order. Assembly gathers instead of scattering: each entry of the result
-// adds its element contributions in a fixed order, so that it does not depend on the number of threads.
+// adds its element contributions in a fixed order, so that it does not depend on the number of
+// threads.
 #pragma once
 
 #include <memory>
@@ -32,7 +33,8 @@ class Discretization {
   /// Triangles with a free vertex.
   const std::vector<int>& active_triangles() const { return active_triangles_; }
 
-  /// Entries of the free vertices of a 3n vector, in the order of the unknowns, and back (fixed: 0).
+  /// Entries of the free vertices of a 3n vector, in the order of the unknowns, and back (fixed:
+  /// 0).
   VecX to_free(const VecX& full) const;
   VecX to_full(const VecX& free) const;
 
@@ -66,7 +68,7 @@ class Discretization {
   Mesh mesh_;
   std::vector<int> free_vertices_, slot_;  // slot_: vertex -> unknown, -1 if fixed
   std::vector<int> active_triangles_;
-  std::vector<int> corner_start_, corner_sources_;  // per free vertex: element corners to add
+  std::vector<int> corner_start_, corner_sources_;   // per free vertex: element corners to add
   std::vector<int> block_column_start_, block_row_;  // block CSC, lower, diagonal block first
   std::vector<int> source_start_;                    // per block: range of sources
   std::vector<BlockSource> sources_;

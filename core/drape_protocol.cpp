@@ -12,14 +12,14 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kRampSteps = 16;
-constexpr double kRampStart = 0.02;       // first share of gravity
-constexpr double kRampNoise = 1e-6;       // [m]
-constexpr double kRampTolerance = 0.1;   // residual of a step, relative to its own gravity
-constexpr double kFoldDrop = 0.6;         // share of the overhang's slope taken by a folded start
+constexpr double kRampStart = 0.02;     // first share of gravity
+constexpr double kRampNoise = 1e-6;     // [m]
+constexpr double kRampTolerance = 0.1;  // residual of a step, relative to its own gravity
+constexpr double kFoldDrop = 0.6;       // share of the overhang's slope taken by a folded start
 constexpr int kOutlineSamples = 1440;
 
-/// A circular arc of length `length`, tangent to the horizontal at its start, whose horizontal reach
-/// is `reach`: total turning angle in [0, pi].
+/// A circular arc of length `length`, tangent to the horizontal at its start, whose horizontal
+/// reach is `reach`: total turning angle in [0, pi].
 double arc_angle(double length, double reach) {
   double low = 0, high = kPi;  // sin(a)/a falls from 1 to 0
   for (int i = 0; i < 60; ++i) {

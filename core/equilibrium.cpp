@@ -12,7 +12,7 @@ namespace drape {
 namespace {
 
 constexpr double kArmijo = 1e-4;
-constexpr double kFirstBlend = 0.1;     // the smallest blend above zero
+constexpr double kFirstBlend = 0.1;       // the smallest blend above zero
 constexpr double kRoundingSlack = 1e-13;  // energy differences below this share of |E| are noise
 constexpr int kMaxBacktracks = 30;
 constexpr int kStagnationLimit = 4;  // steps at the noise level without a smaller residual
@@ -26,8 +26,7 @@ class BlendedNewton {
   BlendedNewton(const Potential& potential, const VecX& x, const EquilibriumOptions& options)
       : potential_(potential),
         options_(options),
-        factor_(std::make_shared<SparseFactor>(
-            potential.discretization().symbolic_factor())),
+        factor_(std::make_shared<SparseFactor>(potential.discretization().symbolic_factor())),
         energy_scale_(potential.free_weight() * x.cwiseAbs().maxCoeff()) {
     result_.x = x;
   }
@@ -212,11 +211,16 @@ class BlendedNewton {
 
 std::string_view name(EquilibriumStatus status) {
   switch (status) {
-    case EquilibriumStatus::converged: return "converged";
-    case EquilibriumStatus::saddle: return "saddle";
-    case EquilibriumStatus::stagnated: return "stagnated";
-    case EquilibriumStatus::iteration_limit: return "iteration_limit";
-    case EquilibriumStatus::non_finite: return "non_finite";
+    case EquilibriumStatus::converged:
+      return "converged";
+    case EquilibriumStatus::saddle:
+      return "saddle";
+    case EquilibriumStatus::stagnated:
+      return "stagnated";
+    case EquilibriumStatus::iteration_limit:
+      return "iteration_limit";
+    case EquilibriumStatus::non_finite:
+      return "non_finite";
   }
   return "unknown";
 }

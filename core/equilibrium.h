@@ -51,8 +51,8 @@ struct Equilibrium {
   bool converged() const { return status == EquilibriumStatus::converged; }
 };
 
-/// Minimises the potential from x (3n); fixed vertices stay where they are. Never throws on numerical
-/// failure: see status.
+/// Minimises the potential from x (3n); fixed vertices stay where they are. Never throws on
+/// numerical failure: see status.
 Equilibrium solve_equilibrium(const Potential& potential, const VecX& x,
                               const EquilibriumOptions& options = {});
 

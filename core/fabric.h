@@ -1,8 +1,8 @@
 // A fabric: the thirteen parameters of the cloth model of Ju et al. 2024 (supplement, section 2).
 //
 // u is the weft and v the warp everywhere (section 2.1; section 2.2 lists the bending stiffnesses
-// in the other order). All values in SI units. A bending stiffness k_b belongs to a wing of the mesh;
-// the plate it makes has a flexural rigidity B of about 4 k_b (see bending.h).
+// in the other order). All values in SI units. A bending stiffness k_b belongs to a wing of the
+// mesh; the plate it makes has a flexural rigidity B of about 4 k_b (see bending.h).
 #pragma once
 
 #include <array>

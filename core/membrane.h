@@ -1,10 +1,11 @@
 // Stretch and shear energy of one triangle (Eqs. 1 and 2 of Ju et al. 2024; Baraff and Witkin 1998,
 // Choi and Ko 2003), a sum over four directions c of the rest plane:
 //
-//   E = sum_c 1/2 k_c A (|w_c| - 1)^2,   w_u, w_v, w_RS = (w_u + w_v)/sqrt2, w_LS = (w_u - w_v)/sqrt2
+//   E = sum_c 1/2 k_c A (|w_c| - 1)^2,   w_u, w_v, w_RS = (w_u + w_v)/sqrt2, w_LS = (w_u -
+//   w_v)/sqrt2
 //
-// with k_u, k_v, k_h, k_h. A stretch ratio below 1 is resisted like one above. Corner positions are the
-// columns of a 3x3 matrix [m]; gradients and Hessians order the corners vertex-major.
+// with k_u, k_v, k_h, k_h. A stretch ratio below 1 is resisted like one above. Corner positions are
+// the columns of a 3x3 matrix [m]; gradients and Hessians order the corners vertex-major.
 #pragma once
 
 #include <cmath>

@@ -51,7 +51,8 @@ RestTriangle rest_triangle(const Points2& uv, const Triangles& triangles, int t)
   return rest;
 }
 
-/// The two triangles beside an edge (a < b): the apex to the left of a->b and to its right, -1 if none.
+/// The two triangles beside an edge (a < b): the apex to the left of a->b and to its right, -1 if
+/// none.
 struct EdgeSides {
   int left = -1, right = -1;
 };
@@ -89,8 +90,7 @@ Wing make_wing(const Mesh& mesh, int a, int b, const EdgeSides& sides) {
 
   Wing wing;
   wing.vertices = {a, b, sides.left, sides.right};
-  wing.on_clamp_line =
-      is_fixed(a) && is_fixed(b) && is_fixed(sides.left) != is_fixed(sides.right);
+  wing.on_clamp_line = is_fixed(a) && is_fixed(b) && is_fixed(sides.left) != is_fixed(sides.right);
   wing.weight = (length / height_left + length / height_right) *
                 (wing.on_clamp_line ? mesh.clamp_wing_factor : 1.0);
   wing.mean_height = (height_left + height_right) / 2;

@@ -29,14 +29,14 @@ struct RestTriangle {
 };
 
 struct Mesh {
-  Points2 rest_uv;                   ///< rest positions (u, v), one row a vertex [m]
-  Triangles triangles;               ///< counter-clockwise; includes the fixed ring
-  std::vector<std::uint8_t> fixed;   ///< 1 for clamped vertices
-  double clamp_wing_factor = 2;      ///< factor on the weight of wings on the clamp line
-  std::vector<RestTriangle> rest;    ///< one a triangle
-  std::vector<Wing> wings;           ///< every inner edge with at least one free vertex in its wing
-  std::vector<int> boundary;         ///< rim vertices in counter-clockwise order
-  VecX nodal_area;                   ///< a third of the area of the adjacent triangles [m^2]
+  Points2 rest_uv;                  ///< rest positions (u, v), one row a vertex [m]
+  Triangles triangles;              ///< counter-clockwise; includes the fixed ring
+  std::vector<std::uint8_t> fixed;  ///< 1 for clamped vertices
+  double clamp_wing_factor = 2;     ///< factor on the weight of wings on the clamp line
+  std::vector<RestTriangle> rest;   ///< one a triangle
+  std::vector<Wing> wings;          ///< every inner edge with at least one free vertex in its wing
+  std::vector<int> boundary;        ///< rim vertices in counter-clockwise order
+  VecX nodal_area;                  ///< a third of the area of the adjacent triangles [m^2]
 
   int vertex_count() const { return static_cast<int>(rest_uv.rows()); }
   int triangle_count() const { return static_cast<int>(triangles.rows()); }

@@ -49,7 +49,8 @@ Corners3<double> Potential::triangle_corners(int triangle, const VecX& x) const 
 Corners4<double> Potential::wing_corners(int wing, const VecX& x) const {
   Corners4<double> corners;
   for (int k = 0; k < 4; ++k)
-    corners.col(k) = position(x, mesh().wings[static_cast<size_t>(wing)].vertices[static_cast<size_t>(k)]);
+    corners.col(k) =
+        position(x, mesh().wings[static_cast<size_t>(wing)].vertices[static_cast<size_t>(k)]);
   return corners;
 }
 
@@ -64,8 +65,8 @@ double Potential::energy(const VecX& x) const {
 #pragma omp for schedule(static) nowait
     for (int i = 0; i < triangles; ++i) {
       const int t = active[static_cast<size_t>(i)];
-      parts[static_cast<size_t>(i)] = membrane_energy<double>(
-          mesh().rest[static_cast<size_t>(t)], k, triangle_corners(t, x));
+      parts[static_cast<size_t>(i)] =
+          membrane_energy<double>(mesh().rest[static_cast<size_t>(t)], k, triangle_corners(t, x));
     }
 #pragma omp for schedule(static)
     for (int w = 0; w < wings; ++w)
@@ -161,8 +162,8 @@ void Potential::hessian(const VecX& x, double blend, SparseMatrix& H) const {
       Mat12 dd;
       fold_angle_derivatives(wing, d, dd);
       // E'' d d^T is never negative; the second-order term of the angle is the geometric part
-      const Mat12 element = wing_tangent(law, delta) * d * d.transpose() +
-                            (1 - blend) * wing_moment(law, delta) * dd;
+      const Mat12 element =
+          wing_tangent(law, delta) * d * d.transpose() + (1 - blend) * wing_moment(law, delta) * dd;
       store(element, 4, discretization_->wing_block(w));
     }
   }
@@ -184,9 +185,7 @@ void Potential::add_guide_hessian(const VecX& x, double blend, SparseMatrix& H) 
   }
 }
 
-double Potential::guide_stiffness() const {
-  return guide_->kappa * free_weight() / kGuideUnitMiss;
-}
+double Potential::guide_stiffness() const { return guide_->kappa * free_weight() / kGuideUnitMiss; }
 
 MatX Potential::gradient_dfabric(const VecX& x) const {
   MatX dg = MatX::Zero(x.size(), kParameterCount);
@@ -225,7 +224,8 @@ ParameterVector Potential::gradient_dfabric_transposed(const VecX& x, const VecX
         lambda.dot(guide_gradient(x)) / fabric_.areal_density;
   for (int t : discretization_->active_triangles()) {
     Vec9 at_corners;
-    for (int k = 0; k < 3; ++k) at_corners.segment<3>(3 * k) = position(lambda, mesh().triangles(t, k));
+    for (int k = 0; k < 3; ++k)
+      at_corners.segment<3>(3 * k) = position(lambda, mesh().triangles(t, k));
     sum.segment<3>(static_cast<int>(Parameter::k_u)) +=
         membrane_gradient_dstiffness(mesh().rest[static_cast<size_t>(t)], triangle_corners(t, x))
             .transpose() *
@@ -233,8 +233,8 @@ ParameterVector Potential::gradient_dfabric_transposed(const VecX& x, const VecX
   }
   for (size_t w = 0; w < mesh().wings.size(); ++w) {
     const Corners4<double> corners = wing_corners(static_cast<int>(w), x);
-    const double rate = fold_angle_gradient(corners).dot(
-        wing_corners(static_cast<int>(w), lambda).reshaped());
+    const double rate =
+        fold_angle_gradient(corners).dot(wing_corners(static_cast<int>(w), lambda).reshaped());
     sum.segment<9>(static_cast<int>(Parameter::k_bu)) +=
         rate * wing_moment_dfabric(laws_[w], fold_angle(corners));
   }

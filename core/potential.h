@@ -45,7 +45,8 @@ class Potential {
   VecX gradient(const VecX& x) const;
 
   /// d2E/dx2 over the unknowns (free order, lower triangle) [N/m]. The negative geometric parts are
-  /// scaled by 1 - blend: 0 is the true Hessian, 1 a positive semidefinite one for Newton steps only.
+  /// scaled by 1 - blend: 0 is the true Hessian, 1 a positive semidefinite one for Newton steps
+  /// only.
   void hessian(const VecX& x, double blend, SparseMatrix& H) const;
 
   /// d(dE/dx)/d(parameter) for all parameters in order (3n x 13), at constant x.
@@ -60,8 +61,8 @@ class Potential {
   double free_weight() const;
   /// Largest nodal force on a free vertex over the largest nodal weight [1]; gradient: 3n.
   double residual(const VecX& gradient) const;
-  /// Change of the residual when every coordinate of x moves by one unit in the last place: no state
-  /// stored in doubles can be expected to have a smaller residual.
+  /// Change of the residual when every coordinate of x moves by one unit in the last place: no
+  /// state stored in doubles can be expected to have a smaller residual.
   double rounding_floor(const VecX& x) const;
 
   /// Number of wings past their bending threshold, and for each wing whether it is.

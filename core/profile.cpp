@@ -125,8 +125,7 @@ Points2 pull_back(const Profile& profile, const Points2& polygon, const Vec2& /*
     const int k = profile.edge[static_cast<size_t>(i)];
     const int next = (k + 1) % static_cast<int>(polygon.rows());
     const double s = profile.fraction[static_cast<size_t>(i)];
-    const Vec2 gradient =
-        dL_dradius[i] * radius_gradient(i, polygon.row(k), polygon.row(next));
+    const Vec2 gradient = dL_dradius[i] * radius_gradient(i, polygon.row(k), polygon.row(next));
     dL_dpolygon.row(k) += (1 - s) * gradient;
     dL_dpolygon.row(next) += s * gradient;
   }

@@ -25,8 +25,8 @@ struct Profile {
 /// from the centre does not meet the polygon (the centre lies outside of it).
 Profile radial_profile(const Points2& polygon, const Vec2& centre = Vec2::Zero());
 
-/// dL/dpolygon (one row a corner) from dL/dradius (kProfileSize). The derivative with respect to the
-/// centre is minus the sum of the rows.
+/// dL/dpolygon (one row a corner) from dL/dradius (kProfileSize). The derivative with respect to
+/// the centre is minus the sum of the rows.
 Points2 pull_back(const Profile& profile, const Points2& polygon, const Vec2& centre,
                   const VecX& dL_dradius);
 

@@ -1,7 +1,7 @@
 // Random numbers that are the same on every platform and library version.
 //
-// std::mt19937_64 is specified bit by bit; the distributions of the standard library are not, so the
-// maps to a range are ours.
+// std::mt19937_64 is specified bit by bit; the distributions of the standard library are not, so
+// the maps to a range are ours.
 #pragma once
 
 #include <cmath>
@@ -29,8 +29,8 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// A seed of its own for the `index`-th item of a run, so that results do not depend on which worker
-/// takes it or on how many items there are (splitmix64, Steele et al. 2014).
+/// A seed of its own for the `index`-th item of a run, so that results do not depend on which
+/// worker takes it or on how many items there are (splitmix64, Steele et al. 2014).
 inline std::uint64_t seed_of_item(std::uint64_t seed, std::uint64_t index) {
   std::uint64_t z = seed + 0x9E3779B97F4A7C15ULL * (index + 1);
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;

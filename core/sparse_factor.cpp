@@ -177,14 +177,14 @@ bool SparseFactor::factorize(const SparseMatrix& lower) {
     if (numeric_->common.status < CHOLMOD_OK)
       throw std::runtime_error("sparse factorisation: CHOLMOD failed with status " +
                                std::to_string(numeric_->common.status));
-    numeric_->valid = numeric_->common.status == CHOLMOD_OK &&
-                      numeric_->factor->minor == numeric_->factor->n;
+    numeric_->valid =
+        numeric_->common.status == CHOLMOD_OK && numeric_->factor->minor == numeric_->factor->n;
     return numeric_->valid;
   }
 #endif
   numeric_->eigen->compute(lower);
-  numeric_->valid = numeric_->eigen->info() == Eigen::Success &&
-                    (numeric_->eigen->vectorD().array() > 0).all();
+  numeric_->valid =
+      numeric_->eigen->info() == Eigen::Success && (numeric_->eigen->vectorD().array() > 0).all();
   return numeric_->valid;
 }
 

@@ -1,8 +1,8 @@
 // Sparse Cholesky factorisation of Hessians: analysed once a mesh, factored many times.
 //
-// Two back ends: CHOLMOD's supernodal factorisation (fast; its supernodal module is GPL) and Eigen's
-// simplicial LDL^T (reference, and what is left when built without CHOLMOD). Matrices come in a
-// fill-reducing order already and hold their lower triangle.
+// Two back ends: CHOLMOD's supernodal factorisation (fast; its supernodal module is GPL) and
+// Eigen's simplicial LDL^T (reference, and what is left when built without CHOLMOD). Matrices come
+// in a fill-reducing order already and hold their lower triangle.
 #pragma once
 
 #include <memory>

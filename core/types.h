@@ -1,7 +1,8 @@
 // Scalar, vector and matrix types shared by all of Drape, and the layout of a state.
 //
 // A state x holds the positions of all n vertices, vertex-major: x = (x0 y0 z0 x1 y1 z1 ...), in
-// metres, z up, the top of the support at z = 0. Signs: g = dE/dx, force = -g, adjoint H l = -dL/dx.
+// metres, z up, the top of the support at z = 0. Signs: g = dE/dx, force = -g, adjoint H l =
+// -dL/dx.
 #pragma once
 
 #include <Eigen/Core>

@@ -38,8 +38,8 @@ double largest_distance(const VecX& a, const VecX& b) { return largest_norm(a - 
 
 BranchPoint make_branch_point(const Potential& potential, const ParameterSpace& space,
                               const VecX& z, Equilibrium equilibrium) {
-  MatX dx_dz = sensitivities(potential, equilibrium, space.parameters) *
-               space.derivative(z).asDiagonal();
+  MatX dx_dz =
+      sensitivities(potential, equilibrium, space.parameters) * space.derivative(z).asDiagonal();
   return {z, std::move(equilibrium), std::move(dx_dz)};
 }
 

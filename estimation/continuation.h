@@ -1,9 +1,9 @@
 // Following one branch of equilibria as the fabric changes.
 //
-// A drape has many equilibria, and a loss is differentiable along one of them only. Each step predicts
-// x + dx/dz dz and minimises from there; it counts only when the minimum lies close to the prediction
-// (relative to the predicted movement), which a snap to another branch does not. Otherwise the step
-// is halved.
+// A drape has many equilibria, and a loss is differentiable along one of them only. Each step
+// predicts x + dx/dz dz and minimises from there; it counts only when the minimum lies close to the
+// prediction (relative to the predicted movement), which a snap to another branch does not.
+// Otherwise the step is halved.
 #pragma once
 
 #include <optional>
@@ -22,11 +22,11 @@ struct BranchPoint {
 };
 
 struct ContinuationOptions {
-  double largest_step = 0.35;        ///< largest change of an unknown in one step
-  double largest_deviation = 0.35;   ///< of the minimum from the prediction, over predicted movement
-  double noise = 2e-5;               ///< deviations below this are never a snap [m]
-  int halvings = 7;                  ///< how often a step is halved before the branch counts as lost
-  double largest_leap = 10;          ///< a path with a larger change of an unknown is not tried
+  double largest_step = 0.35;       ///< largest change of an unknown in one step
+  double largest_deviation = 0.35;  ///< of the minimum from the prediction, over predicted movement
+  double noise = 2e-5;              ///< deviations below this are never a snap [m]
+  int halvings = 7;                 ///< how often a step is halved before the branch counts as lost
+  double largest_leap = 10;         ///< a path with a larger change of an unknown is not tried
   EquilibriumOptions equilibrium{.tolerance = 1e-8, .max_iterations = 80};
 };
 
@@ -41,8 +41,8 @@ struct ContinuationCost {
 BranchPoint make_branch_point(const Potential& potential, const ParameterSpace& space,
                               const VecX& z, Equilibrium equilibrium);
 
-/// Follows the branch from `from` to z. `potential` (guide and gravity as set) ends with the fabric of
-/// the last state tried. Nothing when the branch was lost.
+/// Follows the branch from `from` to z. `potential` (guide and gravity as set) ends with the fabric
+/// of the last state tried. Nothing when the branch was lost.
 std::optional<BranchPoint> follow_branch(Potential& potential, const ParameterSpace& space,
                                          const BranchPoint& from, const VecX& z,
                                          const ContinuationOptions& options,

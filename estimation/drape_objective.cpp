@@ -32,8 +32,7 @@ DrapeObjective::DrapeObjective(Potential potential, const Scene& scene, Paramete
       max_solves_(max_solves) {
   if (loss_ == OutlineLoss::coverage && !observation_.centre_known)
     throw std::invalid_argument("coverage loss: the centre of the observation must be known");
-  if (!(observation_.noise > 0))
-    throw std::invalid_argument("observation noise must be > 0 m");
+  if (!(observation_.noise > 0)) throw std::invalid_argument("observation noise must be > 0 m");
 }
 
 void DrapeObjective::start_from(const Potential& potential, BranchPoint point,
@@ -84,8 +83,7 @@ bool DrapeObjective::residuals_at(const VecX& u, VecX& r, MatX* jacobian) {
 
   r.resize(residuals());
   r.head(kProfileSize) = scale * (profile.radius - observation_.profile);
-  if (has_prior())
-    r.tail(space_.size()) = (u.head(space_.size()) - prior_mean_) / prior_log_sd_;
+  if (has_prior()) r.tail(space_.size()) = (u.head(space_.size()) - prior_mean_) / prior_log_sd_;
   if (jacobian == nullptr) return true;
 
   jacobian->setZero(residuals(), unknowns());
@@ -100,8 +98,9 @@ bool DrapeObjective::residuals_at(const VecX& u, VecX& r, MatX* jacobian) {
           scale * push_forward(profile, outline.points, centre, moved);
     }
   if (has_prior())
-    jacobian->bottomLeftCorner(space_.size(), space_.size()).diagonal().setConstant(1 /
-                                                                                    prior_log_sd_);
+    jacobian->bottomLeftCorner(space_.size(), space_.size())
+        .diagonal()
+        .setConstant(1 / prior_log_sd_);
   return true;
 }
 
@@ -111,10 +110,9 @@ bool DrapeObjective::cost_at(const VecX& u, double& cost, VecX* gradient) {
   const VecX& x = drape->equilibrium.x;
   const Outline outline = trace_outline(potential_.mesh(), scene_, x);
   // a radial miss d all round costs 1/2 d^2 in the profile and 1/2 d 2 pi r in the image
-  const double scale = loss_ == OutlineLoss::profile
-                           ? profile_weight()
-                           : profile_weight() * observation_.noise /
-                                 (2 * kPi * observation_.profile.mean());
+  const double scale = loss_ == OutlineLoss::profile ? profile_weight()
+                                                     : profile_weight() * observation_.noise /
+                                                           (2 * kPi * observation_.profile.mean());
   const Loss loss = loss_ == OutlineLoss::profile
                         ? profile_loss(outline, observation_.profile, centre_of(u))
                         : coverage_loss(outline, observation_.grid, observation_.coverage);
@@ -124,8 +122,8 @@ bool DrapeObjective::cost_at(const VecX& u, double& cost, VecX* gradient) {
   if (gradient == nullptr) return true;
 
   potential_.set_fabric(space_.decode(drape->z));
-  const ParameterVector dL_dp = adjoint_gradient(potential_, drape->equilibrium,
-                                                 pull_back(outline, x, loss.dL_dpoints));
+  const ParameterVector dL_dp =
+      adjoint_gradient(potential_, drape->equilibrium, pull_back(outline, x, loss.dL_dpoints));
   gradient->resize(unknowns());
   const VecX dp_dz = space_.derivative(drape->z);
   for (int i = 0; i < space_.size(); ++i)

@@ -1,15 +1,16 @@
 // The misfit between a drape and an observed outline, as a function of the unknowns of a fit.
 //
-// Unknowns u: the z of a ParameterSpace, then, for photographs, the centre of the observed outline in
-// the drape's frame (2 values in millimetres). With residuals r over the 360 directions of the profile,
+// Unknowns u: the z of a ParameterSpace, then, for photographs, the centre of the observed outline
+// in the drape's frame (2 values in millimetres). With residuals r over the 360 directions of the
+// profile,
 //
 //   J(u) = 1/2 |r|^2,  r = (rho(alpha; centre) - rho_obs(alpha)) / noise * sqrt(61 / 360)
 //          [+ 1/2 |(z - z_start) / prior_log_sd|^2]
 //
-// (61 independent values: a profile carries 30 harmonics). The coverage loss has the same scale: its
-// pixels are weighted so that a uniform radial miss costs what it costs in the profile. Every drape is
-// reached along its branch from the nearest drape known (continuation.h); where the branch is lost
-// there is no value.
+// (61 independent values: a profile carries 30 harmonics). The coverage loss has the same scale:
+// its pixels are weighted so that a uniform radial miss costs what it costs in the profile. Every
+// drape is reached along its branch from the nearest drape known (continuation.h); where the branch
+// is lost there is no value.
 #pragma once
 
 #include <optional>
@@ -25,11 +26,11 @@ namespace drape {
 
 /// What was seen of one drape.
 struct OutlineObservation {
-  VecX profile;               ///< kProfileSize radii about the observation's origin [m]
-  double noise = 5e-4;        ///< standard deviation of a radius [m]
-  bool centre_known = true;   ///< whether that origin is the axis of the support
-  PixelGrid grid;             ///< of `coverage`
-  CoverageImage coverage;     ///< needed by the coverage loss only
+  VecX profile;              ///< kProfileSize radii about the observation's origin [m]
+  double noise = 5e-4;       ///< standard deviation of a radius [m]
+  bool centre_known = true;  ///< whether that origin is the axis of the support
+  PixelGrid grid;            ///< of `coverage`
+  CoverageImage coverage;    ///< needed by the coverage loss only
 };
 
 enum class OutlineLoss { profile, coverage };
@@ -37,7 +38,8 @@ enum class OutlineLoss { profile, coverage };
 class DrapeObjective {
  public:
   DrapeObjective(Potential potential, const Scene& scene, ParameterSpace space,
-                 OutlineObservation observation, OutlineLoss loss, double prior_log_sd, int max_solves);
+                 OutlineObservation observation, OutlineLoss loss, double prior_log_sd,
+                 int max_solves);
 
   int unknowns() const { return space_.size() + (observation_.centre_known ? 0 : 2); }
   int residuals() const { return kProfileSize + (has_prior() ? space_.size() : 0); }
@@ -48,18 +50,20 @@ class DrapeObjective {
   void start_from(const Potential& potential, BranchPoint point,
                   const ContinuationOptions& continuation);
 
-  /// Residuals and, if wanted, their Jacobian (residuals x unknowns). False where the branch is lost.
+  /// Residuals and, if wanted, their Jacobian (residuals x unknowns). False where the branch is
+  /// lost.
   bool residuals_at(const VecX& u, VecX& r, MatX* jacobian);
 
   /// J and, by one adjoint solve, its gradient. False where the branch is lost.
   bool cost_at(const VecX& u, double& cost, VecX* gradient);
 
-  /// The drape at u, nothing where the branch is lost or max_solves are spent. Valid until the next call.
+  /// The drape at u, nothing where the branch is lost or max_solves are spent. Valid until the next
+  /// call.
   const BranchPoint* drape_at(const VecX& u);
 
   Vec2 centre_of(const VecX& u) const;
-  /// Whether the last drape asked for that was not known yet was refused. A minimiser that shrinks its steps because of
-  /// this has not converged.
+  /// Whether the last drape asked for that was not known yet was refused. A minimiser that shrinks
+  /// its steps because of this has not converged.
   bool refused() const { return refused_; }
   const ContinuationCost& work() const { return work_; }
 

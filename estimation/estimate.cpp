@@ -12,7 +12,7 @@
 namespace drape {
 namespace {
 
-constexpr double kLargestCentre = 10;  // the unknowns of the centre are bounded to +-10 mm
+constexpr double kLargestCentre = 10;     // the unknowns of the centre are bounded to +-10 mm
 constexpr double kStageTolerance = 1e-3;  // relative cost change that ends a guided fit
 
 /// One estimation from start to end; each method is one stage.
@@ -63,8 +63,8 @@ class Estimation {
   }
 
   Guide guide_of(double kappa) const {
-    return {harmonics(observation_.profile, options_.guide_harmonics),
-            objective_.centre_of(u_), kappa};
+    return {harmonics(observation_.profile, options_.guide_harmonics), objective_.centre_of(u_),
+            kappa};
   }
 
   bool guided_start() {
@@ -170,10 +170,14 @@ class Estimation {
 
 std::string_view name(EstimateOutcome outcome) {
   switch (outcome) {
-    case EstimateOutcome::succeeded: return "succeeded";
-    case EstimateOutcome::no_start: return "no_start";
-    case EstimateOutcome::branch_lost: return "branch_lost";
-    case EstimateOutcome::not_converged: return "not_converged";
+    case EstimateOutcome::succeeded:
+      return "succeeded";
+    case EstimateOutcome::no_start:
+      return "no_start";
+    case EstimateOutcome::branch_lost:
+      return "branch_lost";
+    case EstimateOutcome::not_converged:
+      return "not_converged";
   }
   return "unknown";
 }

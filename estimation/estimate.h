@@ -1,10 +1,10 @@
 // Estimation of fabric parameters from the outline of one drape.
 //
-// The observation chooses the branch: the start is minimised under a guide that pulls the rim towards
-// the observed outline, and the fit itself runs on guided drapes while the guide is released (kappa
-// = 1, 0.1, 0.01, 0). Exact data have zero residual at the truth for every kappa, so the guide biases
-// nothing; without it a fit from elsewhere ends on a neighbouring branch. Only a fit that ends with
-// kappa = 0 on a certified minimum counts.
+// The observation chooses the branch: the start is minimised under a guide that pulls the rim
+// towards the observed outline, and the fit itself runs on guided drapes while the guide is
+// released (kappa = 1, 0.1, 0.01, 0). Exact data have zero residual at the truth for every kappa,
+// so the guide biases nothing; without it a fit from elsewhere ends on a neighbouring branch. Only
+// a fit that ends with kappa = 0 on a certified minimum counts.
 #pragma once
 
 #include <optional>
@@ -21,12 +21,13 @@ struct EstimateOptions {
                                     Parameter::k_bh};
   FitMethod method = FitMethod::levenberg_marquardt;
   OutlineLoss loss = OutlineLoss::profile;
-  std::vector<double> guide{1, 0.1, 0.01};  ///< kappas before the unguided fit; empty: unguided only
-  int guide_harmonics = 24;                 ///< of the observed profile
-  double bound_factor = 100;                ///< estimates stay within start / factor .. start * factor
-  double prior_log_sd = 0;                  ///< of ln p about the start; 0: no prior
-  int max_iterations = 60;                  ///< of each fit
-  EquilibriumOptions equilibrium;           ///< of the first, guided solve
+  std::vector<double> guide{1, 0.1,
+                            0.01};  ///< kappas before the unguided fit; empty: unguided only
+  int guide_harmonics = 24;         ///< of the observed profile
+  double bound_factor = 100;        ///< estimates stay within start / factor .. start * factor
+  double prior_log_sd = 0;          ///< of ln p about the start; 0: no prior
+  int max_iterations = 60;          ///< of each fit
+  EquilibriumOptions equilibrium;   ///< of the first, guided solve
   /// Along the unguided fit: trials that lose the branch are cheap to give up, Ceres shortens them.
   ContinuationOptions continuation{.halvings = 2, .largest_leap = 0.7};
   int max_solves = 400;  ///< forward solves of one fit, over all stages
@@ -43,12 +44,12 @@ std::string_view name(EstimateOutcome outcome);
 struct Estimate {
   EstimateOutcome outcome = EstimateOutcome::no_start;
   Fabric start, fabric;
-  Equilibrium equilibrium;  ///< of `fabric`, under the guide `kappa`
-  double kappa = 0;         ///< of the last guide; 0 unless the branch was lost
+  Equilibrium equilibrium;     ///< of `fabric`, under the guide `kappa`
+  double kappa = 0;            ///< of the last guide; 0 unless the branch was lost
   Vec2 centre = Vec2::Zero();  ///< of the observation in the drape's frame [m]
-  VecX start_profile;       ///< of the first drape [m]
-  VecX log_sd;              ///< Gauss-Newton standard deviations of the unknowns
-  double outline_rms = 0;   ///< of the profile's misfit [m]
+  VecX start_profile;          ///< of the first drape [m]
+  VecX log_sd;                 ///< Gauss-Newton standard deviations of the unknowns
+  double outline_rms = 0;      ///< of the profile's misfit [m]
   int iterations = 0;
   int forward_solves = 0;
   double cpu_seconds = 0;
@@ -56,8 +57,8 @@ struct Estimate {
 };
 
 /// `model` gives mesh, bending reading and gravity. With `start_state`, an equilibrium of `start`
-/// without guide, the fit is unguided from there; otherwise see above. Throws std::invalid_argument on
-/// bad input only.
+/// without guide, the fit is unguided from there; otherwise see above. Throws std::invalid_argument
+/// on bad input only.
 Estimate estimate(const Potential& model, const Scene& scene, const OutlineObservation& observation,
                   const Fabric& start, const EstimateOptions& options,
                   const std::optional<Equilibrium>& start_state = std::nullopt);

@@ -62,8 +62,9 @@ class AdjointCost : public ceres::FirstOrderFunction {
   const MinimiseOptions& options_;
 };
 
-/// L^-T of the damped Gauss-Newton matrix J^T J = L L^T at the start, where the sensitivities are known
-/// anyway: in these units BFGS begins with a Gauss-Newton step instead of one along the gradient.
+/// L^-T of the damped Gauss-Newton matrix J^T J = L L^T at the start, where the sensitivities are
+/// known anyway: in these units BFGS begins with a Gauss-Newton step instead of one along the
+/// gradient.
 MatX gauss_newton_scaling(DrapeObjective& objective, const VecX& u) {
   VecX r;
   MatX J;
@@ -92,9 +93,8 @@ void keep(const Summary& summary, const DrapeObjective& objective, Minimum& mini
   minimum.initial_cost = summary.initial_cost;
   minimum.cost = summary.final_cost;
   minimum.iterations = static_cast<int>(summary.iterations.size());
-  minimum.converged =
-      summary.termination_type == ceres::USER_SUCCESS ||
-      (summary.termination_type == ceres::CONVERGENCE && !objective.refused());
+  minimum.converged = summary.termination_type == ceres::USER_SUCCESS ||
+                      (summary.termination_type == ceres::CONVERGENCE && !objective.refused());
   minimum.message = summary.message;
 }
 

@@ -1,4 +1,5 @@
-// The unknowns of an estimation: logarithms of the chosen parameters (threshold controls t_b linear).
+// The unknowns of an estimation: logarithms of the chosen parameters (threshold controls t_b
+// linear).
 #pragma once
 
 #include <vector>
@@ -7,8 +8,8 @@
 
 namespace drape {
 
-/// Maps between a fabric and its vector of unknowns z. Parameters that are not chosen keep the values
-/// of `reference`.
+/// Maps between a fabric and its vector of unknowns z. Parameters that are not chosen keep the
+/// values of `reference`.
 struct ParameterSpace {
   std::vector<Parameter> parameters;
   Fabric reference;

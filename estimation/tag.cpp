@@ -160,12 +160,12 @@ Fabric first_parameters(Structure structure, double areal_density) {
   // 2022, doi 10.1145/3550454.3555464: 618 published rows, 251 of them distinct; over the distinct
   // ones -9.197 and 1.230). Residual standard deviation of ln B: 0.82.
   const double mean_rigidity = std::exp(-9.285 + 1.187 * std::log(areal_density));  // [N m]
-  // Measured, rounded: with cantilever rigidities the ramp's drapes of the 15 fabrics of Fig. 2 have a
-  // median drape coefficient of 58 %, with twice these of 74 %; 20 photographed fabrics (Gong et al.
-  // 2024, arXiv 2402.17664) have a median of 72 %, uncertain by -5/+1 points.
+  // Measured, rounded: with cantilever rigidities the ramp's drapes of the 15 fabrics of Fig. 2
+  // have a median drape coefficient of 58 %, with twice these of 74 %; 20 photographed fabrics
+  // (Gong et al. 2024, arXiv 2402.17664) have a median of 72 %, uncertain by -5/+1 points.
   constexpr double kDrapeOverCantilever = 2;
-  // Assumed: the same in every direction. Warp, weft and bias differ in the median by 1.21, 0.76 and
-  // 0.93 of the mean, but by anything between 0.2 and 2 in single fabrics, and no tag tells.
+  // Assumed: the same in every direction. Warp, weft and bias differ in the median by 1.21, 0.76
+  // and 0.93 of the mean, but by anything between 0.2 and 2 in single fabrics, and no tag tells.
   const Vec3 k_b = hinge_stiffness(Vec3::Constant(kDrapeOverCantilever * mean_rigidity)).k_b;
   fabric.k_bu = k_b[0];
   fabric.k_bv = k_b[1];

@@ -212,7 +212,8 @@ std::vector<ConfigKey> make_keys() {
       "Standard deviation of the prior on each log parameter about its start; 0 for no prior.",
       MEMBER(estimate.prior_log_sd));
   add("estimate", "start", "", kAny,
-      "First drape of a fit: \"guided\" by the observed outline, or, where the target's equilibrium "
+      "First drape of a fit: \"guided\" by the observed outline, or, where the target's "
+      "equilibrium "
       "is known, \"continued\" from it (guided where that fails).",
       MEMBER(estimate.start));
   add("estimate", "guide", "", kNotNegative,

@@ -11,7 +11,8 @@ namespace drape {
 namespace {
 
 constexpr int kRepetitions = 5;
-constexpr double kBlend = 1;  // the projected Hessian has a factor at any state; its cost is the same
+constexpr double kBlend =
+    1;  // the projected Hessian has a factor at any state; its cost is the same
 
 }  // namespace
 

@@ -1,7 +1,7 @@
 // The unit in which work is reported: one Hessian assembly and one numeric factorisation.
 //
-// Work in these units hardly depends on the machine. Measured beside the work itself, on one thread,
-// because processors change their pace.
+// Work in these units hardly depends on the machine. Measured beside the work itself, on one
+// thread, because processors change their pace.
 #pragma once
 
 #include "core/potential.h"

@@ -15,8 +15,8 @@ void draw_figure(const std::string& script, const std::filesystem::path& results
                  const std::filesystem::path& stem) {
   const std::filesystem::path program =
       std::filesystem::path(DRAPE_SOURCE_DIR) / "experiments" / "figures" / script;
-  std::vector<std::string> words{"/usr/bin/python3", "-B", program.string(), results.string(),
-                                 "--out", stem.string()};
+  std::vector<std::string> words{"/usr/bin/python3", "-B",    program.string(),
+                                 results.string(),   "--out", stem.string()};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

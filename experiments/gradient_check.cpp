@@ -21,9 +21,10 @@ namespace drape {
 namespace {
 
 constexpr int kObservationHarmonics = 6;
-constexpr double kSmallShare = 1e-4;      // of the largest derivative, below which errors are absolute
-constexpr double kLargestDeviation = 0.35;  // of a state from its prediction, over predicted movement
-constexpr double kNoise = 1e-6;             // deviations below this are never a snap [m]
+constexpr double kSmallShare = 1e-4;  // of the largest derivative, below which errors are absolute
+constexpr double kLargestDeviation =
+    0.35;                        // of a state from its prediction, over predicted movement
+constexpr double kNoise = 1e-6;  // deviations below this are never a snap [m]
 constexpr int kTimings = 5;
 
 /// A profile 1 to 2 mm beside `radius`, smoothly.
@@ -34,8 +35,9 @@ VecX observation_near(const VecX& radius, std::uint64_t seed) {
     const double amplitude = random.uniform(1e-3, 2e-3) / std::sqrt(kObservationHarmonics);
     const double phase = random.uniform(0, 2 * std::numbers::pi);
     for (Eigen::Index i = 0; i < observed.size(); ++i)
-      observed[i] += amplitude * std::cos(2 * std::numbers::pi * k * static_cast<double>(i) /
-                                              kProfileSize + phase);
+      observed[i] +=
+          amplitude *
+          std::cos(2 * std::numbers::pi * k * static_cast<double>(i) / kProfileSize + phase);
   }
   return observed;
 }
@@ -180,8 +182,7 @@ GradientCheck check_gradient(const Settings& settings,
   const Potential potential = make_potential(std::move(discretization), fabric, settings);
   const Equilibrium cold = drape(settings, potential);
   result.forward_cpu_seconds = cold.cpu_seconds;
-  const Equilibrium equilibrium =
-      cold.converged() ? solve_to_floor(potential, cold.x) : cold;
+  const Equilibrium equilibrium = cold.converged() ? solve_to_floor(potential, cold.x) : cold;
   result.status = equilibrium.converged() ? "ok" : name(equilibrium.status);
   result.record = make_record(settings, potential, equilibrium);
   result.record.stats.protocol = cold.protocol;
@@ -201,8 +202,7 @@ GradientCheck check_gradient(const Settings& settings,
     const Outline traced = trace_outline(mesh, settings.scene, equilibrium.x);
     dL_dp = adjoint_gradient(potential, equilibrium,
                              pull_back(traced, equilibrium.x, loss(traced).dL_dpoints));
-    result.adjoint_cpu_seconds =
-        std::min(result.adjoint_cpu_seconds, thread_cpu_seconds() - start);
+    result.adjoint_cpu_seconds = std::min(result.adjoint_cpu_seconds, thread_cpu_seconds() - start);
   }
 
   const ParameterSpace space{settings.gradient_check.parameters, fabric};
@@ -220,8 +220,7 @@ GradientCheck check_gradient(const Settings& settings,
   double largest = 0;
   for (int j = 0; j < space.size(); ++j) {
     result.parameters.push_back(check_parameter(differences, settings.gradient_check.steps,
-                                                space.parameters[static_cast<size_t>(j)], j,
-                                                a[j]));
+                                                space.parameters[static_cast<size_t>(j)], j, a[j]));
     largest = std::fmax(largest, std::abs(result.parameters.back().difference));
   }
   for (ParameterCheck& check : result.parameters)

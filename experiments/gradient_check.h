@@ -3,9 +3,10 @@
 //
 // Derivatives are with respect to log parameters (t_b linear). The difference f is central; both of
 // its states start from the prediction x +- dx/dp h and are solved to the rounding floor. A step is
-// excluded when a wing changes its bending regime between the three states, or when a state lies far
-// from its prediction (it snapped to another branch): there the loss has no derivative to compare
-// with. The best of the other steps counts: large steps err by truncation, small ones by rounding.
+// excluded when a wing changes its bending regime between the three states, or when a state lies
+// far from its prediction (it snapped to another branch): there the loss has no derivative to
+// compare with. The best of the other steps counts: large steps err by truncation, small ones by
+// rounding.
 #pragma once
 
 #include <cstdint>

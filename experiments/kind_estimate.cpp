@@ -1,4 +1,5 @@
-// kind = "estimate": parameters back from outlines, over the records of a dataset or random fabrics.
+// kind = "estimate": parameters back from outlines, over the records of a dataset or random
+// fabrics.
 #include <cmath>
 #include <exception>
 #include <iostream>
@@ -19,7 +20,8 @@
 namespace drape {
 namespace {
 
-constexpr double kIdentifiable = 0.2;  // log standard deviation below which a parameter counts as seen
+constexpr double kIdentifiable =
+    0.2;  // log standard deviation below which a parameter counts as seen
 constexpr double kBendingError = 0.02, kShearError = 0.10;  // what counts as recovered
 
 /// The targets: fabrics with their drapes, and the header that they share.

@@ -59,12 +59,9 @@ Json check(const Settings& settings, std::shared_ptr<const Discretization> discr
     item["wings"] = result.wings;
     item["wings_past_threshold"] = result.wings_past_threshold;
     for (const ParameterCheck& c : result.parameters)
-      item["parameters"][std::string(name(c.parameter))] = {{"adjoint", c.adjoint},
-                                                            {"difference", c.difference},
-                                                            {"differences", c.differences},
-                                                            {"step", c.step},
-                                                            {"error", c.error},
-                                                            {"excluded", c.excluded}};
+      item["parameters"][std::string(name(c.parameter))] = {
+          {"adjoint", c.adjoint}, {"difference", c.difference}, {"differences", c.differences},
+          {"step", c.step},       {"error", c.error},           {"excluded", c.excluded}};
   } catch (const std::exception& error) {
     item["status"] = error.what();
   }
@@ -129,14 +126,14 @@ bool print_report(const Json& summary) {
   std::printf("adjoint over forward CPU (median): %.2g\n",
               number(summary["adjoint_over_forward_cpu"]));
   const int unchecked = summary["unchecked_derivatives"];
-  bool met = print_target("worst gradient error", number(summary["max_relative_error"]),
-                          kTargetError);
+  bool met =
+      print_target("worst gradient error", number(summary["max_relative_error"]), kTargetError);
   const int one_regime =
       summary["fabrics"].get<int>() - summary["fabrics_with_both_regimes"].get<int>();
   met &= print_target("derivatives left unchecked", unchecked, 0);
   met &= print_target("fabrics without both regimes of bending", one_regime, 0);
-  met &= print_target("share of excluded steps", number(summary["excluded_steps"]),
-                      kTargetExcluded);
+  met &=
+      print_target("share of excluded steps", number(summary["excluded_steps"]), kTargetExcluded);
   met &= print_target("adjoint against tangent", number(summary["adjoint_versus_tangent_max"]),
                       kTargetTangent);
   met &= print_target("adjoint, factorisation-equivalents (median)",
@@ -150,7 +147,8 @@ RunOutcome run_gradient_check(const Settings& settings, OutputFolder& folder) {
   const int fabrics = settings.gradient_check.fabrics;
   const JsonStore store(folder, "fabrics");
   const auto discretization = make_discretization(settings);
-  const RecordStore records(folder.path(), records_header(settings, discretization->mesh()), fabrics);
+  const RecordStore records(folder.path(), records_header(settings, discretization->mesh()),
+                            fabrics);
   int resumed = 0;
   for (int i = 0; i < fabrics; ++i) resumed += store.has(std::to_string(i));
   {

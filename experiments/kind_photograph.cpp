@@ -76,8 +76,7 @@ RunOutcome run_photograph(const Settings& settings, OutputFolder& folder) {
   const Estimate result = estimate(model, settings.scene, observation, first, options);
 
   Record record = observed_record(settings, photograph, discretization->mesh(), first);
-  record.estimate =
-      estimate_record(model, settings.scene, result, observation, options.parameters);
+  record.estimate = estimate_record(model, settings.scene, result, observation, options.parameters);
   RecordsHeader header = records_header(settings, discretization->mesh());
   header.grid = photograph.grid;
   const RecordStore store(folder.path(), header, 1);

@@ -1,6 +1,6 @@
 // kind = "quickstart": the whole path in one run. Tags -> first parameters -> drapes -> dataset ->
-// parameters wrong by a factor -> estimated back from the silhouettes -> one sheet; and, where it is
-// there, the photograph of a real drape -> parameters.
+// parameters wrong by a factor -> estimated back from the silhouettes -> one sheet; and, where it
+// is there, the photograph of a real drape -> parameters.
 #include <filesystem>
 #include <iostream>
 
@@ -63,7 +63,8 @@ RunOutcome run_quickstart(const Settings& settings, OutputFolder& folder) {
     outcome.summary["photograph"] =
         run_part("photograph", run_photograph, Kind::photograph, photograph, folder);
   } else if (!quickstart.photograph.empty()) {
-    std::cout << "No photograph at " << quickstart.photograph.string() << ": that part is skipped\n";
+    std::cout << "No photograph at " << quickstart.photograph.string()
+              << ": that part is skipped\n";
   }
 
   // a lost branch is a finding that the sheet shows; a fabric without a drape is a failure

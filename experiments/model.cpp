@@ -32,8 +32,8 @@ std::shared_ptr<const Discretization> make_discretization(const Settings& settin
                                                 settings.solver.factorization);
 }
 
-Potential make_potential(std::shared_ptr<const Discretization> discretization,
-                         const Fabric& fabric, const Settings& settings) {
+Potential make_potential(std::shared_ptr<const Discretization> discretization, const Fabric& fabric,
+                         const Settings& settings) {
   return {std::move(discretization), fabric, settings.reading, settings.scene.gravity};
 }
 

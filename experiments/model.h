@@ -19,8 +19,8 @@ std::shared_ptr<const Discretization> make_discretization(const Settings& settin
                                                           int vertices = 0);
 
 /// Throws std::invalid_argument on an invalid fabric.
-Potential make_potential(std::shared_ptr<const Discretization> discretization,
-                         const Fabric& fabric, const Settings& settings);
+Potential make_potential(std::shared_ptr<const Discretization> discretization, const Fabric& fabric,
+                         const Settings& settings);
 
 EquilibriumOptions equilibrium_options(const Settings& settings);
 

@@ -1,7 +1,7 @@
 // The finished records of a run: one durable file each while it is at work, one table at the end.
 //
-// records/NNNNNN.h5 appears when record N is complete and on disk, so a killed run resumes with what
-// it had acknowledged. results.h5 is written from these files once all are there.
+// records/NNNNNN.h5 appears when record N is complete and on disk, so a killed run resumes with
+// what it had acknowledged. results.h5 is written from these files once all are there.
 #pragma once
 
 #include <filesystem>
@@ -28,7 +28,8 @@ class RecordStore {
   Record load(int index) const;
   /// All records in order. Throws RecordError if one is missing.
   std::vector<Record> load_all() const;
-  /// Writes results.h5 and removes the files it replaces. Throws RecordError if a record is missing.
+  /// Writes results.h5 and removes the files it replaces. Throws RecordError if a record is
+  /// missing.
   void consolidate() const;
 
  private:

@@ -34,9 +34,8 @@ BranchTest follow_target(Potential potential, const Record& record, const Fabric
     return test;
   const ParameterSpace space{options.parameters, record.fabric};
   const VecX truth = space.encode(record.fabric), first = space.encode(start);
-  const auto there = follow_branch(potential, space,
-                                   make_branch_point(potential, space, truth, target), first,
-                                   patient);
+  const auto there = follow_branch(
+      potential, space, make_branch_point(potential, space, truth, target), first, patient);
   if (!there) return test;
   const auto back = follow_branch(potential, space, *there, truth, patient);
   test.start = there->equilibrium;
@@ -63,10 +62,11 @@ VecX with_noise(const VecX& profile, double sd, std::uint64_t seed) {
   for (int k = 0; k <= kNoiseHarmonics; ++k) {
     const double phase = random.uniform(0, 2 * kPi);
     for (Eigen::Index i = 0; i < profile.size(); ++i)
-      noise[i] += std::cos(2 * kPi * k * static_cast<double>(i) /
-                               static_cast<double>(profile.size()) + phase);
+      noise[i] += std::cos(
+          2 * kPi * k * static_cast<double>(i) / static_cast<double>(profile.size()) + phase);
   }
-  return profile + sd / std::sqrt((noise.squaredNorm() / static_cast<double>(noise.size()))) * noise;
+  return profile +
+         sd / std::sqrt((noise.squaredNorm() / static_cast<double>(noise.size()))) * noise;
 }
 
 EstimateOptions estimate_options(const Settings& settings) {
@@ -98,8 +98,7 @@ EstimateRecord recover(const Settings& settings, const Potential& model, const R
 
   const Fabric start = perturbed(record.fabric, settings.estimate, seed);
   const BranchTest branch = follow_target(model, record, start, options);
-  const bool continued =
-      settings.estimate.start == EstimateStart::continued && branch.shared;
+  const bool continued = settings.estimate.start == EstimateStart::continued && branch.shared;
   const Estimate result = estimate(model, header.scene, observation, start, options,
                                    continued ? branch.start : std::nullopt);
   EstimateRecord kept =
@@ -134,8 +133,8 @@ EstimateRecord estimate_record(const Potential& model, const Scene& scene, const
   outline.points.rowwise() -= estimate.centre.transpose();  // into the observation's frame
   kept.profile = radial_profile(outline.points).radius;
   kept.node_count = node_count(kept.profile);
-  kept.iou = intersection_over_union(coverage(outline.points, observation.grid),
-                                     observation.coverage);
+  kept.iou =
+      intersection_over_union(coverage(outline.points, observation.grid), observation.coverage);
   return kept;
 }
 

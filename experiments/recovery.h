@@ -18,10 +18,10 @@ VecX with_noise(const VecX& profile, double sd, std::uint64_t seed);
 
 EstimateOptions estimate_options(const Settings& settings);
 
-/// Estimates the parameters of a record from its profile (or coverage). `model` gives mesh, reading and
-/// gravity. The record's own equilibrium, where it has one, is used for two things: to say whether
-/// target and start share a branch (continuing target -> start -> target comes back within 1e-6 m),
-/// and, for start = "continued", for the first drape of the fit.
+/// Estimates the parameters of a record from its profile (or coverage). `model` gives mesh, reading
+/// and gravity. The record's own equilibrium, where it has one, is used for two things: to say
+/// whether target and start share a branch (continuing target -> start -> target comes back within
+/// 1e-6 m), and, for start = "continued", for the first drape of the fit.
 EstimateRecord recover(const Settings& settings, const Potential& model, const Record& record,
                        const RecordsHeader& header, std::uint64_t seed);
 

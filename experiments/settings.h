@@ -77,7 +77,7 @@ struct EstimateSettings {
   double bounds = 100;
   double outline_noise = 5e-4;  ///< [m]
   bool add_noise = false;
-  double prior_log_sd = 0;   ///< 0: no prior
+  double prior_log_sd = 0;  ///< 0: no prior
   EstimateStart start = EstimateStart::guided;
   int guide_harmonics = 24;
   std::vector<double> guide{1, 0.1, 0.01};
@@ -108,7 +108,7 @@ struct RobustnessSettings {
 struct QuickstartSettings {
   int fabrics = 15;
   std::filesystem::path table;
-  std::filesystem::path photograph;  ///< empty: none
+  std::filesystem::path photograph;            ///< empty: none
   double mm_per_pixel = 0, areal_density = 0;  ///< of the photograph
 };
 

@@ -143,12 +143,12 @@ TEST_F(Program, EstimateNeedsItsInput) {
 
 TEST_F(Program, BadParameters) {
   for (const char* value : {"-2e-6", "0", "nan", "inf", "-inf"}) {
-    scratch.write("b.toml", "[experiment]\nkind = 'drape'\n[fabric]\nk_bu = " +
-                                std::string(value) + "\n");
+    scratch.write("b.toml",
+                  "[experiment]\nkind = 'drape'\n[fabric]\nk_bu = " + std::string(value) + "\n");
     expect_refused_in_a_line("run b.toml --out out", "b.toml:4:8: fabric.k_bu = ");
-    expect_refused_in_a_line("run a.toml --out out --set fabric.areal_density=" +
-                                 std::string(value),
-                             "must be a finite number > 0 kg/m^2");
+    expect_refused_in_a_line(
+        "run a.toml --out out --set fabric.areal_density=" + std::string(value),
+        "must be a finite number > 0 kg/m^2");
   }
   expect_refused_in_a_line("run a.toml --out out --set fabric.t_bu=1.01", "fabric.t_bu = 1.01");
   expect_refused_in_a_line("run a.toml --out out --set fabric.k_w=1",
