@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kLargestCentre = 10;     // the unknowns of the centre are bounded to +-10 mm
 constexpr double kStageTolerance = 1e-3;  // relative cost change that ends a guided fit
+constexpr double kFinalTolerance = 1e-6;  // and the last one, far below what noise leaves of the cost
 
 /// One estimation from start to end; each method is one stage.
 class Estimation {
@@ -56,7 +57,7 @@ class Estimation {
         fit_stage(kStageTolerance);
       }
     if (!set_guide(0)) return;
-    const Minimum minimum = fit_stage(1e-12);
+    const Minimum minimum = fit_stage(kFinalTolerance);
     result_.outcome =
         minimum.converged ? EstimateOutcome::succeeded : EstimateOutcome::not_converged;
     finish();
