@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
@@ -37,34 +36,36 @@ Fabric checked_fabric(std::uint64_t seed, int index) {
   return random_fabric(random, box);
 }
 
+/// What the report needs of a finished check.
+void add_check(const GradientCheck& result, Json& item) {
+  item["forward_cpu_seconds"] = result.forward_cpu_seconds;
+  item["adjoint_cpu_seconds"] = result.adjoint_cpu_seconds;
+  item["unit_cpu_seconds"] = result.unit_cpu_seconds;
+  item["adjoint_versus_tangent"] = result.adjoint_versus_tangent;
+  item["wings"] = result.wings;
+  item["wings_past_threshold"] = result.wings_past_threshold;
+  for (const ParameterCheck& c : result.parameters)
+    item["parameters"][std::string(name(c.parameter))] = {
+        {"adjoint", c.adjoint}, {"difference", c.difference}, {"differences", c.differences},
+        {"step", c.step},       {"error", c.error},           {"excluded", c.excluded}};
+}
+
 /// Checks the `index`-th fabric; `record` becomes its record, whatever happens.
 Json check(const Settings& settings, std::shared_ptr<const Discretization> discretization,
            int index, Record& record) {
   const std::uint64_t seed =
       seed_of_item(settings.experiment.seed, static_cast<std::uint64_t>(index));
   Json item = {{"index", index}, {"seed", seed}};
-  try {
+  const std::string exception = fill_record(record, index, [&] {
     const Fabric fabric = checked_fabric(seed, index);
     record = failed_record(settings, discretization->mesh(), fabric, "not solved");
     const GradientCheck result =
         check_gradient(settings, discretization, fabric, seed_of_item(seed, 0));
     record = result.record;
-    record.id = record.name = std::to_string(index);
     item["status"] = result.status;
-    if (result.status != "ok") return item;
-    item["forward_cpu_seconds"] = result.forward_cpu_seconds;
-    item["adjoint_cpu_seconds"] = result.adjoint_cpu_seconds;
-    item["unit_cpu_seconds"] = result.unit_cpu_seconds;
-    item["adjoint_versus_tangent"] = result.adjoint_versus_tangent;
-    item["wings"] = result.wings;
-    item["wings_past_threshold"] = result.wings_past_threshold;
-    for (const ParameterCheck& c : result.parameters)
-      item["parameters"][std::string(name(c.parameter))] = {
-          {"adjoint", c.adjoint}, {"difference", c.difference}, {"differences", c.differences},
-          {"step", c.step},       {"error", c.error},           {"excluded", c.excluded}};
-  } catch (const std::exception& error) {
-    item["status"] = error.what();
-  }
+    if (result.status == "ok") add_check(result, item);
+  });
+  if (!exception.empty()) item["status"] = exception;
   return item;
 }
 

@@ -1,5 +1,6 @@
 #include "experiments/model.h"
 
+#include <exception>
 #include <limits>
 #include <stdexcept>
 
@@ -126,6 +127,17 @@ Record failed_record(const Settings& settings, const Mesh& mesh, const Fabric& f
   record.stats.energy = kNaN;
   record.observation = nothing_seen(observation_grid(settings));
   return record;
+}
+
+std::string fill_record(Record& record, int index, const std::function<void()>& work) {
+  std::string message;
+  try {
+    work();
+  } catch (const std::exception& error) {
+    message = record.stats.status = error.what();
+  }
+  record.id = record.name = std::to_string(index);
+  return message;
 }
 
 bool converged(const Record& record) {

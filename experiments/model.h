@@ -2,6 +2,7 @@
 // experiments share.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -45,6 +46,11 @@ Record make_record(const Settings& settings, const Potential& potential,
 /// The record of a fabric without an equilibrium: NaN positions, `status` says why.
 Record failed_record(const Settings& settings, const Mesh& mesh, const Fabric& fabric,
                      const std::string& status);
+
+/// Calls `work`, which fills the record of a run's `index`-th item. An exception becomes the status
+/// of the record, which keeps what it held before; its message is returned, "" if there was none.
+/// The record has the id `index` either way.
+std::string fill_record(Record& record, int index, const std::function<void()>& work);
 
 /// Whether the record's solve ended at a certified minimum.
 bool converged(const Record& record);
