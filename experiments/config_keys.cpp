@@ -249,10 +249,14 @@ std::vector<ConfigKey> make_keys() {
       "Steps of the central differences, of log parameters (of t_b itself).",
       MEMBER(gradient_check.steps));
 
-  add("robustness", "fabrics", "", at_least(1), "Number of random fabrics.",
+  add("robustness", "fabrics", "", at_least(1),
+      "Number of random fabrics: half of the measured distribution, half from a wide box.",
       MEMBER(robustness.fabrics));
   add("robustness", "vertices", "", kVertices, "Mesh sizes to solve them on.",
       MEMBER(robustness.vertices));
+  add("robustness", "only", "", kNotNegative,
+      "Indices of the fabrics to solve (again), e.g. of a failure; [] for all.",
+      MEMBER(robustness.only));
 
   add("quickstart", "fabrics", "", at_least(1), "Number of fabrics, from the top of the table.",
       MEMBER(quickstart.fabrics));

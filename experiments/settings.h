@@ -102,7 +102,8 @@ struct GradientCheckSettings {
 
 struct RobustnessSettings {
   int fabrics = 60;
-  std::vector<int> vertices{1000, 2000, 8000};
+  std::vector<int> vertices{2000};
+  std::vector<int> only;  ///< indices of fabrics; empty: all
 };
 
 struct QuickstartSettings {

@@ -18,6 +18,7 @@ sys.path.insert(0, str(FIGURES))
 import drape_sheet  # noqa: E402
 import estimate_overlay  # noqa: E402
 import results as records  # noqa: E402
+import robustness  # noqa: E402
 import style  # noqa: E402
 
 SUPPORT, SPECIMEN = 0.09, 0.15
@@ -169,6 +170,25 @@ class Figures(unittest.TestCase):
             self.assertEqual(done.stdout.split(), [str(file) for file in files])
             self.assertTrue(files[0].read_bytes().startswith(b"\x89PNG"))
             self.assertTrue(files[1].read_bytes().startswith(b"%PDF"))
+
+    def test_chart_of_robustness_is_readable(self):
+        head = "distribution,size,bending_length_m,cpu_seconds,unit_cpu_seconds,failure\n"
+        rows = [f"{name},{size},{0.002 * 1.2**i},{0.1 + 0.02 * i},0.01,\n"
+                for i in range(12) for name in ("measured", "wide") for size in (1000, 2000)]
+        table = self.folder / "solves.csv"
+        for failed, said in (("wide,2000,0.003,,,exception\n", "failed (wide box): 1"),
+                             ("", "12 of 12, median 21.0")):
+            table.write_text(head + "".join(rows) + failed)
+            page = robustness.chart(robustness.read(table))
+            self.check_layout(page)
+            legends = [text.get_text() for axes in page.figure.axes
+                       for text in axes.get_legend().get_texts()]
+            self.assertIn(said, " ".join(legends))
+        for content in ("", head, "a,b\n1,2\n", head + "wide,2000,x,1,1,\n"):
+            table.write_text(content)
+            done = self.run_script("robustness.py", table, "--out", self.folder / "units")
+            self.assertEqual(done.returncode, 2, content)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
 
     def test_unreadable_input_is_one_line_and_exit_2(self):
         self.file.write_text("no HDF5")

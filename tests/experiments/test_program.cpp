@@ -242,6 +242,30 @@ TEST_F(Program, FailedSolveIsExitCode3) {
   EXPECT_EQ(drape(command).exit_code, 3);  // already done, with the same outcome
 }
 
+TEST_F(Program, AFailedFabricIsReplayedByTheCommandThatTheSummaryNames) {
+  scratch.write("r.toml",
+                "[experiment]\nkind = 'robustness'\n[robustness]\nfabrics = 4\nvertices = [250]\n"
+                "[start]\nprotocol = 'lobes'\n[solver]\nmax_iterations = 1\n");
+  const Ended ended = drape("run r.toml --out out --threads 1");
+  ASSERT_EQ(ended.exit_code, 3) << ended.text;
+  const auto summary = nlohmann::json::parse(scratch.read("out/summary.json"));
+  EXPECT_EQ(summary["fabrics"], 4);
+  EXPECT_EQ(summary["distributions"]["measured"]["fabrics"], 2);
+  EXPECT_EQ(summary["failure_classes"]["iteration_limit"], 4);
+  for (const char* file : {"out/results.h5", "out/solves.csv", "out/units.png"})
+    EXPECT_TRUE(std::filesystem::exists(scratch / file)) << file;
+
+  const auto& failure = summary["failures"][3];
+  std::string replay = failure["replay"];
+  ASSERT_EQ(replay.rfind("drape ", 0), 0u) << replay;
+  const Ended again = drape(replay.substr(6));
+  EXPECT_EQ(again.exit_code, 3) << again.text;
+  const auto one = nlohmann::json::parse(scratch.read("out/replay_250_3/summary.json"));
+  ASSERT_EQ(one["failures"].size(), 1u);
+  for (const char* key : {"index", "seed", "distribution", "vertices", "class", "residual"})
+    EXPECT_EQ(one["failures"][0][key], failure[key]) << key;
+}
+
 TEST_F(Program, InterruptedIsExitCode130AndResumable) {
   const std::string command = DRAPE_PROGRAM
       " run a.toml --out out --set experiment.kind=dataset --set dataset.fabrics=100000";
