@@ -1,35 +1,38 @@
 // Energy, gradient and Hessian of a drape: one evaluation each.
-#include <benchmark/benchmark.h>
-
 #include "benchmarks/drape_fixture.h"
 
 namespace drape::bench {
 namespace {
 
 void assembly_energy(benchmark::State& state) {
-  const SolvedDrape& drape = solved_drape(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(drape.potential.energy(drape.equilibrium.x));
+  const Potential potential = medium_drape(vertices(state));
+  const VecX x = folded_start(potential);
+  for (auto _ : state) benchmark::DoNotOptimize(potential.energy(x));
 }
 
-void assembly_gradient(benchmark::State& state) {
-  const SolvedDrape& drape = solved_drape(static_cast<int>(state.range(0)));
-  for (auto _ : state)
-    benchmark::DoNotOptimize(drape.potential.gradient(drape.equilibrium.x).data());
+void assembly_energy_and_gradient(benchmark::State& state) {
+  const Potential potential = medium_drape(vertices(state));
+  const VecX x = folded_start(potential);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(potential.energy(x));
+    benchmark::DoNotOptimize(potential.gradient(x).data());
+  }
 }
 
 void assembly_hessian(benchmark::State& state) {
-  const SolvedDrape& drape = solved_drape(static_cast<int>(state.range(0)));
-  SparseMatrix H = drape.potential.discretization().hessian_pattern();
+  const Potential potential = medium_drape(vertices(state));
+  const VecX x = folded_start(potential);
+  SparseMatrix H = potential.discretization().hessian_pattern();
   for (auto _ : state) {
-    drape.potential.hessian(drape.equilibrium.x, 0, H);
+    potential.hessian(x, 0, H);
     benchmark::DoNotOptimize(H.valuePtr());
   }
-  state.counters["nonzeros"] = static_cast<double>(H.nonZeros());
+  report(state, "nonzeros", static_cast<double>(H.nonZeros()));
 }
 
-BENCHMARK(assembly_energy)->Arg(1000)->Arg(2000)->Arg(8000)->Unit(benchmark::kMillisecond);
-BENCHMARK(assembly_gradient)->Arg(1000)->Arg(2000)->Arg(8000)->Unit(benchmark::kMillisecond);
-BENCHMARK(assembly_hessian)->Arg(1000)->Arg(2000)->Arg(8000)->Unit(benchmark::kMillisecond);
+BENCHMARK(assembly_energy)->Apply(every_size);
+BENCHMARK(assembly_energy_and_gradient)->Apply(every_size);
+BENCHMARK(assembly_hessian)->Apply(every_size);
 
 }  // namespace
 }  // namespace drape::bench

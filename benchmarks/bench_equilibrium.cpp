@@ -1,39 +1,48 @@
-// Whole solves: a drape from a folded start, and the drape of a fabric near by from a known one.
-#include <benchmark/benchmark.h>
-
+// Whole solves: cold drapes by both protocols, and the drape of a fabric near by from a known one.
 #include "benchmarks/drape_fixture.h"
+#include "core/drape_protocol.h"
 
 namespace drape::bench {
 namespace {
 
-void report(benchmark::State& state, const Equilibrium& equilibrium) {
+void report_solve(benchmark::State& state, const Potential& potential,
+                  const Equilibrium& equilibrium) {
   if (!equilibrium.converged()) state.SkipWithError("the drape did not converge");
-  state.counters["newton_iterations"] = equilibrium.newton_iterations;
-  state.counters["factorizations"] = equilibrium.factorizations;
+  report(state, "newton_iterations", equilibrium.newton_iterations);
+  report(state, "factorizations", equilibrium.factorizations);
+  report_units(state, potential, equilibrium.x, equilibrium.cpu_seconds);
 }
 
-void equilibrium_cold(benchmark::State& state) {
-  const Potential potential(disc(static_cast<int>(state.range(0))), medium_fabric(), {},
-                            kScene.gravity);
+void drape_cold_folded(benchmark::State& state) {
+  const Potential potential = medium_drape(vertices(state));
   Equilibrium equilibrium;
-  for (auto _ : state) equilibrium = drape_by_lobes(potential, kScene, kLobes, 0.1);
-  report(state, equilibrium);
+  for (auto _ : state) equilibrium = drape_by_lobes(potential, kCusick, kLobes, kPhase);
+  report_solve(state, potential, equilibrium);
+}
+
+void drape_cold_ramp(benchmark::State& state) {
+  const Potential potential = medium_drape(vertices(state));
+  Equilibrium equilibrium;
+  for (auto _ : state) equilibrium = drape_by_ramp(potential, 1);
+  report_solve(state, potential, equilibrium);
 }
 
 /// All bending stiffnesses changed by 3 %, as in a step of an estimation.
-void equilibrium_warm(benchmark::State& state) {
-  const SolvedDrape& drape = solved_drape(static_cast<int>(state.range(0)));
-  Fabric stiffer = drape.potential.fabric();
+void drape_warm(benchmark::State& state) {
+  const std::optional<SolvedDrape> drape = solved_drape(state);
+  if (!drape) return;
+  Fabric stiffer = drape->potential.fabric();
   for (Parameter p : {Parameter::k_bu, Parameter::k_bv, Parameter::k_bh}) stiffer[p] *= 1.03;
-  Potential potential = drape.potential;
+  Potential potential = drape->potential;
   potential.set_fabric(stiffer);
   Equilibrium equilibrium;
-  for (auto _ : state) equilibrium = solve_equilibrium(potential, drape.equilibrium.x);
-  report(state, equilibrium);
+  for (auto _ : state) equilibrium = solve_equilibrium(potential, drape->equilibrium.x);
+  report_solve(state, potential, equilibrium);
 }
 
-BENCHMARK(equilibrium_cold)->Arg(1000)->Arg(2000)->Unit(benchmark::kMillisecond);
-BENCHMARK(equilibrium_warm)->Arg(1000)->Arg(2000)->Unit(benchmark::kMillisecond);
+BENCHMARK(drape_cold_folded)->Apply(every_size_once);
+BENCHMARK(drape_cold_ramp)->Apply(every_size_once);
+BENCHMARK(drape_warm)->Apply(every_size_once);
 
 }  // namespace
 }  // namespace drape::bench

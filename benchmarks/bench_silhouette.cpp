@@ -1,7 +1,5 @@
 // From a state to what is seen of it, and back: outline, radial profile, coverage image (256^2),
 // and the pull-back of each.
-#include <benchmark/benchmark.h>
-
 #include "benchmarks/drape_fixture.h"
 #include "core/coverage.h"
 #include "core/profile.h"
@@ -11,66 +9,61 @@ namespace {
 
 const PixelGrid kGrid = centred_grid(256, 0.32);
 
-const SolvedDrape& drape_of(const benchmark::State& state) {
-  return solved_drape(static_cast<int>(state.range(0)));
-}
+struct Seen {
+  explicit Seen(const benchmark::State& state)
+      : potential(medium_drape(vertices(state))),
+        x(folded_start(potential)),
+        outline(trace_outline(potential.mesh(), kCusick, x)) {}
 
-void silhouette_outline(benchmark::State& state) {
-  const SolvedDrape& drape = drape_of(state);
+  const Potential potential;
+  const VecX x;
+  const Outline outline;
+};
+
+void outline(benchmark::State& state) {
+  const Seen seen(state);
   for (auto _ : state)
-    benchmark::DoNotOptimize(
-        trace_outline(drape.potential.mesh(), kScene, drape.equilibrium.x).points.data());
+    benchmark::DoNotOptimize(trace_outline(seen.potential.mesh(), kCusick, seen.x).points.data());
 }
 
-void silhouette_outline_pull_back(benchmark::State& state) {
-  const SolvedDrape& drape = drape_of(state);
-  const Points2 ones = Points2::Ones(drape.outline.size(), 2);
-  for (auto _ : state)
-    benchmark::DoNotOptimize(pull_back(drape.outline, drape.equilibrium.x, ones).data());
+void outline_pull_back(benchmark::State& state) {
+  const Seen seen(state);
+  const Points2 ones = Points2::Ones(seen.outline.size(), 2);
+  for (auto _ : state) benchmark::DoNotOptimize(pull_back(seen.outline, seen.x, ones).data());
 }
 
-void silhouette_profile(benchmark::State& state) {
-  const Points2& polygon = drape_of(state).outline.points;
-  for (auto _ : state) benchmark::DoNotOptimize(radial_profile(polygon).radius.data());
+void profile(benchmark::State& state) {
+  const Seen seen(state);
+  for (auto _ : state) benchmark::DoNotOptimize(radial_profile(seen.outline.points).radius.data());
 }
 
-void silhouette_profile_pull_back(benchmark::State& state) {
-  const Points2& polygon = drape_of(state).outline.points;
-  const Profile profile = radial_profile(polygon);
+void profile_pull_back(benchmark::State& state) {
+  const Seen seen(state);
+  const Points2& polygon = seen.outline.points;
+  const Profile radii = radial_profile(polygon);
   const VecX ones = VecX::Ones(kProfileSize);
   for (auto _ : state)
-    benchmark::DoNotOptimize(pull_back(profile, polygon, Vec2::Zero(), ones).data());
+    benchmark::DoNotOptimize(pull_back(radii, polygon, Vec2::Zero(), ones).data());
 }
 
-void silhouette_coverage(benchmark::State& state) {
-  const Points2& polygon = drape_of(state).outline.points;
-  for (auto _ : state) benchmark::DoNotOptimize(coverage(polygon, kGrid).data());
+void coverage_image(benchmark::State& state) {
+  const Seen seen(state);
+  for (auto _ : state) benchmark::DoNotOptimize(coverage(seen.outline.points, kGrid).data());
 }
 
-void silhouette_coverage_pull_back(benchmark::State& state) {
-  const Points2& polygon = drape_of(state).outline.points;
-  const CoverageImage image = coverage(polygon, kGrid);
-  for (auto _ : state) benchmark::DoNotOptimize(pull_back(polygon, kGrid, image).data());
+void coverage_pull_back(benchmark::State& state) {
+  const Seen seen(state);
+  const CoverageImage image = coverage(seen.outline.points, kGrid);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(pull_back(seen.outline.points, kGrid, image).data());
 }
 
-BENCHMARK(silhouette_outline)->Arg(1000)->Arg(2000)->Arg(8000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(silhouette_outline_pull_back)
-    ->Arg(1000)
-    ->Arg(2000)
-    ->Arg(8000)
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK(silhouette_profile)->Arg(1000)->Arg(2000)->Arg(8000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(silhouette_profile_pull_back)
-    ->Arg(1000)
-    ->Arg(2000)
-    ->Arg(8000)
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK(silhouette_coverage)->Arg(1000)->Arg(2000)->Arg(8000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(silhouette_coverage_pull_back)
-    ->Arg(1000)
-    ->Arg(2000)
-    ->Arg(8000)
-    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(outline)->Apply(every_size);
+BENCHMARK(outline_pull_back)->Apply(every_size);
+BENCHMARK(profile)->Apply(every_size);
+BENCHMARK(profile_pull_back)->Apply(every_size);
+BENCHMARK(coverage_image)->Apply(every_size);
+BENCHMARK(coverage_pull_back)->Apply(every_size);
 
 }  // namespace
 }  // namespace drape::bench

@@ -1,4 +1,4 @@
-// Small meshes, fabrics and states for the tests of the cloth model.
+// Small meshes, fabrics and states for the tests of the cloth model and the benchmarks.
 #pragma once
 
 #include <cmath>
