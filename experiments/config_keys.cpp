@@ -252,7 +252,9 @@ std::vector<ConfigKey> make_keys() {
   add("robustness", "fabrics", "", at_least(1),
       "Number of random fabrics: half of the measured distribution, half from a wide box.",
       MEMBER(robustness.fabrics));
-  add("robustness", "vertices", "", kVertices, "Mesh sizes to solve them on.",
+  add("robustness", "vertices", "", kVertices,
+      "Mesh sizes to solve them on. The first one's results.h5 is the run's, the others' are in "
+      "vertices_N.",
       MEMBER(robustness.vertices));
   add("robustness", "only", "", kNotNegative,
       "Indices of the fabrics to solve (again), e.g. of a failure; [] for all.",
