@@ -3,12 +3,12 @@
 // measured: (ln density, ln B_warp, ln B_weft, ln B_bias) are jointly normal, fitted to the 618
 //   fabrics of Feng et al. 2022 (doi 10.1145/3550454.3555464) and truncated to their range.
 //   Stretch and shear span knits to coated fabrics, softening is that of their bending tests.
-// wide: a log-uniform box ten to a hundred times larger on every side, up to what is still a cloth:
-//   density .02 to 1 kg/m^2 (chiffon to rug), stretch 5 to 1e5 N/m and shear 1 to 1e4 N/m (loose
-//   knit to laminated sailcloth, weft and warp drawn apart), B 1e-8 to 1e-2 N m (gauze to thick
-//   leather), its directions apart by up to 10, s_b .05 to 2, t_b 0 to 1. The bending length is at
+// wide: a log-uniform box up to what is still a cloth: density .02 to 1 kg/m^2 (chiffon to rug),
+//   stretch 5 to 1e5 N/m and shear 1 to 1e4 N/m (loose knit to laminated sailcloth; weft and warp
+//   drawn apart), B 1e-8 to 1e-2 N m (gauze to thick leather: 20 times below and above what was
+//   measured), its directions apart by up to 10, s_b .05 to 2, t_b 0 to 1. The bending length is at
 //   least 2 mm; the shortest measured one is 8.6 mm. On a mesh of 5 mm a stretch stiffness is then
-//   up to 1e9 times the bending stiffness (k h^2 / k_b).
+//   up to 1e9 times a bending stiffness (k h^2 / k_b).
 #pragma once
 
 #include <string_view>
