@@ -81,7 +81,7 @@ def of_median(deviation, count):
 
 
 def verdict(old, new, threshold):
-    """slower, faster, same, noisy (beyond the threshold but within the noise), failed, or mended."""
+    """slower, faster, same, noisy (beyond the threshold, within the noise), failed or mended."""
     if new.failed:
         return "same" if old.failed else "failed"
     if old.failed:
