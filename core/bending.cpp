@@ -66,17 +66,6 @@ WingLaw wing_law(const Wing& wing, const Fabric& fabric, BendingReading reading)
   return law;
 }
 
-double wing_moment(const WingLaw& law, double delta) {
-  if (!past_threshold(law, delta)) return 2 * law.stiffness * delta;
-  if (law.law == BendingLaw::secant) return 2 * law.stiffness * law.scale * delta;
-  const double beyond = std::abs(delta) - law.threshold;
-  return std::copysign(2 * law.stiffness * (law.threshold + law.scale * beyond), delta);
-}
-
-double wing_tangent(const WingLaw& law, double delta) {
-  return 2 * law.stiffness * (past_threshold(law, delta) ? law.scale : 1.0);
-}
-
 Eigen::Matrix<double, 9, 1> wing_moment_dfabric(const WingLaw& law, double delta) {
   const double k_b = law.stiffness / law.weight;
   double dM_dk = 2 * delta, dM_ds = 0, dM_dthreshold = 0;

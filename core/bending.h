@@ -8,6 +8,8 @@
 //   tangent: f = delta*^2 + 2 delta* (d - delta*) + s_b (d - delta*)^2   (C1)
 //   secant:  f = s_b d^2                                                 (to the letter; it jumps)
 //
+// Moments and tangents, which the solver needs, are in batched_bending.h.
+//
 // A mesh of equilateral triangles with k_bu = k_bv = k_bh bends like a plate of rigidity B = 4 k_b.
 #pragma once
 
@@ -54,12 +56,6 @@ Scalar wing_energy(const WingLaw& law, const Scalar& delta) {
          (Scalar(law.threshold * law.threshold) + Scalar(2 * law.threshold) * beyond +
           Scalar(law.scale) * beyond * beyond);
 }
-
-/// dE/d(delta) [J/rad].
-double wing_moment(const WingLaw& law, double delta);
-
-/// d2E/d(delta)2 [J/rad^2]; on the threshold, the value past it. Never negative.
-double wing_tangent(const WingLaw& law, double delta);
 
 /// d(dE/d delta)/d(k_bu, k_bv, k_bh, s_bu, s_bv, s_bh, t_bu, t_bv, t_bh).
 Eigen::Matrix<double, 9, 1> wing_moment_dfabric(const WingLaw& law, double delta);

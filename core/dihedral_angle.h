@@ -14,7 +14,6 @@ namespace drape {
 template <typename Scalar>
 using Corners4 = Eigen::Matrix<Scalar, 3, 4>;
 using Vec12 = Eigen::Matrix<double, 12, 1>;
-using Mat12 = Eigen::Matrix<double, 12, 12>;
 
 /// delta in (-pi, pi] [rad]; templated so that tests can differentiate it automatically.
 template <typename Scalar>
@@ -30,11 +29,5 @@ Scalar fold_angle(const Corners4<Scalar>& x) {
 
 /// d(delta)/dx [1/m], corners in order.
 Vec12 fold_angle_gradient(const Corners4<double>& x);
-
-/// Gradient and Hessian d2(delta)/dx2 [1/m^2] together, since they share their geometry. Closed
-/// form: with unit edge e of length l and, for each side, unit normal n, in-plane unit normal m
-/// towards its apex c and N = twice its area, Hessian_ij = sum over sides [n A_ij^T + A_ji n^T],
-/// A_ij = M_ij m + Q_ij e (coefficients in the source file).
-void fold_angle_derivatives(const Corners4<double>& x, Vec12& gradient, Mat12& hessian);
 
 }  // namespace drape

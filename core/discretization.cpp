@@ -3,6 +3,7 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -10,21 +11,26 @@
 namespace drape {
 namespace {
 
-/// Calls visit(vertices, count, first corner, first block) for every element.
+/// Calls visit(vertices, count) for every element.
 template <typename Visit>
-void for_each_element(const Discretization& d, Visit visit) {
-  const Mesh& mesh = d.mesh();
-  int corner = 0;
-  for (size_t i = 0; i < d.active_triangles().size(); ++i) {
-    const int t = d.active_triangles()[i];
+void for_each_element(const Mesh& mesh, const std::vector<int>& triangles, Visit visit) {
+  for (const int t : triangles) {
     const int vertices[3] = {mesh.triangles(t, 0), mesh.triangles(t, 1), mesh.triangles(t, 2)};
-    visit(vertices, 3, corner, d.triangle_block(static_cast<int>(i)));
-    corner += 3;
+    visit(vertices, 3);
   }
-  for (size_t w = 0; w < mesh.wings.size(); ++w) {
-    visit(mesh.wings[w].vertices.data(), 4, corner, d.wing_block(static_cast<int>(w)));
-    corner += 4;
-  }
+  for (const Wing& wing : mesh.wings) visit(wing.vertices.data(), 4);
+}
+
+/// Calls visit(batch, lane, i, j, block) for the lower blocks of all lanes that hold an element.
+template <int kCorners, typename Batch, typename Visit>
+void for_each_block(const std::vector<Batch>& batches, size_t elements, Visit visit) {
+  for (size_t e = 0; e < elements; ++e)
+    for (int i = 0; i < kCorners; ++i)
+      for (int j = 0; j <= i; ++j) {
+        const size_t batch = e / kLanes, lane = e % kLanes;
+        visit(batch, lane, batches[batch].vertices[i][lane], batches[batch].vertices[j][lane],
+              lower_index(i, j));
+      }
 }
 
 /// Fill-reducing order: result[k] is the k-th node to eliminate.
@@ -51,8 +57,9 @@ Discretization::Discretization(Mesh mesh, FactorBackend backend) : mesh_(std::mo
   for (int t = 0; t < mesh_.triangle_count(); ++t)
     if (!mesh_.triangle_is_fixed(t)) active_triangles_.push_back(t);
   order_free_vertices();
-  list_corner_sources();
-  list_block_sources();
+  sort_elements();
+  build_pattern();
+  place_blocks();
   symbolic_ = std::make_shared<const SymbolicFactor>(pattern_, backend);
 }
 
@@ -66,7 +73,7 @@ void Discretization::order_free_vertices() {
   if (free_vertices_.empty()) throw std::invalid_argument("mesh: every vertex is fixed");
 
   std::vector<std::set<int>> neighbours(free_vertices_.size());
-  for_each_element(*this, [&](const int* vertices, int count, int, int) {
+  for_each_element(mesh_, active_triangles_, [&](const int* vertices, int count) {
     for (int i = 0; i < count; ++i)
       for (int j = 0; j < count; ++j) {
         const int a = slot_[static_cast<size_t>(vertices[i])];
@@ -82,64 +89,77 @@ void Discretization::order_free_vertices() {
     slot_[static_cast<size_t>(free_vertices_[k])] = static_cast<int>(k);
 }
 
-void Discretization::list_corner_sources() {
-  std::vector<std::vector<int>> lists(free_vertices_.size());
-  for_each_element(*this, [&](const int* vertices, int count, int corner, int) {
-    for (int i = 0; i < count; ++i)
-      if (const int a = slot_[static_cast<size_t>(vertices[i])]; a >= 0)
-        lists[static_cast<size_t>(a)].push_back(corner + i);
-  });
-  corner_start_ = {0};
-  for (const auto& list : lists) {
-    corner_sources_.insert(corner_sources_.end(), list.begin(), list.end());
-    corner_start_.push_back(static_cast<int>(corner_sources_.size()));
-  }
+void Discretization::sort_elements() {
+  const auto first_unknown = [&](const auto& vertices) {
+    int first = free_vertex_count();
+    for (const int v : vertices)
+      if (const int a = slot_[static_cast<size_t>(v)]; a >= 0) first = std::min(first, a);
+    return first;
+  };
+  const auto sort = [](std::vector<int>& elements, const auto& key) {
+    std::stable_sort(elements.begin(), elements.end(),
+                     [&](int p, int q) { return key(p) < key(q); });
+  };
+  sort(active_triangles_, [&](int t) { return first_unknown(mesh_.triangles.row(t)); });
+  std::vector<int> wings(mesh_.wings.size());
+  std::iota(wings.begin(), wings.end(), 0);
+  sort(wings, [&](int w) { return first_unknown(mesh_.wings[static_cast<size_t>(w)].vertices); });
+  triangle_batches_ = batches_of_triangles(mesh_, active_triangles_);
+  wing_batches_ = batches_of_wings(mesh_, wings);
 }
 
-void Discretization::list_block_sources() {
-  struct Entry {
-    int column, row;
-    BlockSource source;
-  };
-  std::vector<Entry> entries;
-  for_each_element(*this, [&](const int* vertices, int count, int, int first_block) {
+void Discretization::build_pattern() {
+  std::vector<Eigen::Triplet<double>> triplets;
+  for_each_element(mesh_, active_triangles_, [&](const int* vertices, int count) {
     for (int i = 0; i < count; ++i)
-      for (int j = 0; j <= i; ++j) {
+      for (int j = 0; j < count; ++j) {
         const int a = slot_[static_cast<size_t>(vertices[i])];
         const int b = slot_[static_cast<size_t>(vertices[j])];
-        if (a < 0 || b < 0) continue;
-        entries.push_back(
-            {std::min(a, b), std::max(a, b), {first_block + lower_index(i, j), a < b}});
+        if (a < b || b < 0) continue;
+        for (int c = 0; c < 3; ++c)
+          for (int r = a == b ? c : 0; r < 3; ++r) triplets.emplace_back(3 * a + r, 3 * b + c, 0.0);
       }
   });
-  std::stable_sort(entries.begin(), entries.end(), [](const Entry& p, const Entry& q) {
-    return std::pair(p.column, p.row) < std::pair(q.column, q.row);
-  });
-
-  const int n = free_vertex_count();
-  block_column_start_.assign(static_cast<size_t>(n) + 1, 0);
-  for (size_t k = 0; k < entries.size(); ++k) {
-    const Entry& entry = entries[k];
-    if (k == 0 || entry.column != entries[k - 1].column || entry.row != entries[k - 1].row) {
-      block_row_.push_back(entry.row);
-      source_start_.push_back(static_cast<int>(k));
-      block_column_start_[static_cast<size_t>(entry.column) + 1] =
-          static_cast<int>(block_row_.size());
-    }
-    sources_.push_back(entry.source);
-  }
-  source_start_.push_back(static_cast<int>(entries.size()));
-
-  pattern_.resize(3 * n, 3 * n);
-  std::vector<Eigen::Triplet<double>> triplets;
-  for (int column = 0; column < n; ++column)
-    for (int b = block_column_start_[static_cast<size_t>(column)];
-         b < block_column_start_[static_cast<size_t>(column) + 1]; ++b)
-      for (int c = 0; c < 3; ++c)
-        for (int r = block_row_[static_cast<size_t>(b)] == column ? c : 0; r < 3; ++r)
-          triplets.emplace_back(3 * block_row_[static_cast<size_t>(b)] + r, 3 * column + c, 0.0);
+  const int n = 3 * free_vertex_count();
+  pattern_.resize(n, n);
   pattern_.setFromTriplets(triplets.begin(), triplets.end());
   pattern_.makeCompressed();
+}
+
+BlockPlace Discretization::block_place(int row_vertex, int column_vertex) const {
+  const int a = slot_[static_cast<size_t>(row_vertex)];
+  const int b = slot_[static_cast<size_t>(column_vertex)];
+  if (a < 0 || b < 0) return {};
+  const int row = 3 * std::max(a, b), column = 3 * std::min(a, b);
+  const int start = pattern_.outerIndexPtr()[column], end = pattern_.outerIndexPtr()[column + 1];
+  const int* const rows = pattern_.innerIndexPtr();
+  const auto first = static_cast<int>(std::lower_bound(rows + start, rows + end, row) - rows);
+  const int stride = end - start - 1;  // the next column has one entry less above the block
+  return {first, a < b ? -stride : stride};
+}
+
+void Discretization::place_blocks() {
+  triangle_places_.resize(triangle_batches_.size());
+  for_each_block<3>(triangle_batches_, active_triangles_.size(),
+                    [&](size_t batch, size_t lane, int row, int column, int block) {
+                      triangle_places_[batch].block[block][lane] = block_place(row, column);
+                    });
+  wing_places_.resize(wing_batches_.size());
+  for_each_block<4>(wing_batches_, mesh_.wings.size(),
+                    [&](size_t batch, size_t lane, int row, int column, int block) {
+                      wing_places_[batch].block[block][lane] = block_place(row, column);
+                    });
+}
+
+void Discretization::reset_hessian(SparseMatrix& H) const {
+  const bool has_pattern =
+      H.isCompressed() && H.rows() == pattern_.rows() && H.nonZeros() == pattern_.nonZeros() &&
+      std::equal(pattern_.outerIndexPtr(), pattern_.outerIndexPtr() + pattern_.outerSize(),
+                 H.outerIndexPtr());
+  if (has_pattern)
+    std::fill_n(H.valuePtr(), H.nonZeros(), 0.0);
+  else
+    H = pattern_;
 }
 
 VecX Discretization::to_free(const VecX& full) const {
@@ -156,61 +176,9 @@ VecX Discretization::to_full(const VecX& free) const {
   return full;
 }
 
-int Discretization::element_block_count() const {
-  return wing_block(static_cast<int>(mesh_.wings.size()));
-}
-
-int Discretization::element_corner_count() const {
-  return 3 * static_cast<int>(active_triangles_.size()) + 4 * static_cast<int>(mesh_.wings.size());
-}
-
 int Discretization::diagonal_entry(int vertex, int r, int c) const {
   const int a = slot_[static_cast<size_t>(vertex)];
   return a < 0 ? -1 : pattern_.outerIndexPtr()[3 * a + c] + r - c;
-}
-
-void Discretization::gather_hessian(const std::vector<double>& blocks, SparseMatrix& H) const {
-  double* const values = H.valuePtr();
-  const int* const column_start = H.outerIndexPtr();
-  const int n = free_vertex_count();
-#pragma omp parallel for schedule(static)
-  for (int column = 0; column < n; ++column) {
-    const int first = block_column_start_[static_cast<size_t>(column)];
-    const int last = block_column_start_[static_cast<size_t>(column) + 1];
-    for (int b = first; b < last; ++b) {
-      Mat3 sum = Mat3::Zero();
-      for (int s = source_start_[static_cast<size_t>(b)];
-           s < source_start_[static_cast<size_t>(b) + 1]; ++s) {
-        const BlockSource source = sources_[static_cast<size_t>(s)];
-        const Eigen::Map<const Mat3> block(blocks.data() + 9 * static_cast<size_t>(source.block));
-        if (source.transpose)
-          sum += block.transpose();
-        else
-          sum += block;
-      }
-      for (int c = 0; c < 3; ++c) {
-        // a column holds the lower part of its diagonal block, then three rows a block
-        double* const target = values + column_start[3 * column + c];
-        if (b == first)
-          for (int r = c; r < 3; ++r) target[r - c] += sum(r, c);
-        else
-          for (int r = 0; r < 3; ++r) target[3 - c + 3 * (b - first - 1) + r] += sum(r, c);
-      }
-    }
-  }
-}
-
-void Discretization::gather_gradient(const std::vector<double>& corners, VecX& gradient) const {
-  const int n = free_vertex_count();
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < n; ++k) {
-    Vec3 sum = Vec3::Zero();
-    for (int s = corner_start_[static_cast<size_t>(k)];
-         s < corner_start_[static_cast<size_t>(k) + 1]; ++s)
-      sum += Eigen::Map<const Vec3>(
-          corners.data() + 3 * static_cast<size_t>(corner_sources_[static_cast<size_t>(s)]));
-    gradient.segment<3>(3 * free_vertices_[static_cast<size_t>(k)]) += sum;
-  }
 }
 
 }  // namespace drape

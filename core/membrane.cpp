@@ -1,7 +1,5 @@
 #include "core/membrane.h"
 
-#include <algorithm>
-
 namespace drape {
 namespace {
 
@@ -25,24 +23,6 @@ Vec9 membrane_gradient(const RestTriangle& rest, const MembraneStiffness& k,
     g += (stiffness[i] * rest.area * (l - 1) / l) * w.col(i) * c.col(i).transpose();
   }
   return g.reshaped();
-}
-
-Mat9 membrane_hessian(const RestTriangle& rest, const MembraneStiffness& k,
-                      const Corners3<double>& x, double blend) {
-  const Eigen::Matrix<double, 3, 4> c = membrane_directions(rest);
-  const Eigen::Matrix<double, 3, 4> w = stretched_directions(c, x);
-  const double stiffness[4] = {k.k_u, k.k_v, k.k_h, k.k_h};
-  Mat9 H = Mat9::Zero();
-  for (int d = 0; d < 4; ++d) {
-    const double l = w.col(d).norm();
-    const double geometric = 1 - 1 / l;
-    const double kept = geometric < 0 ? (1 - blend) * geometric : geometric;
-    const Mat3 K = stiffness[d] * rest.area *
-                   (kept * Mat3::Identity() + w.col(d) * w.col(d).transpose() / (l * l * l));
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) H.block<3, 3>(3 * i, 3 * j) += (c(i, d) * c(j, d)) * K;
-  }
-  return H;
 }
 
 Eigen::Matrix<double, 9, 3> membrane_gradient_dstiffness(const RestTriangle& rest,

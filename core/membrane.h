@@ -5,7 +5,8 @@
 //   w_v)/sqrt2
 //
 // with k_u, k_v, k_h, k_h. A stretch ratio below 1 is resisted like one above. Corner positions are
-// the columns of a 3x3 matrix [m]; gradients and Hessians order the corners vertex-major.
+// the columns of a 3x3 matrix [m]; gradients order the corners vertex-major. The solver's kernels
+// for whole meshes are in batched_membrane.h.
 #pragma once
 
 #include <cmath>
@@ -24,7 +25,6 @@ struct MembraneStiffness {
 template <typename Scalar>
 using Corners3 = Eigen::Matrix<Scalar, 3, 3>;
 using Vec9 = Eigen::Matrix<double, 9, 1>;
-using Mat9 = Eigen::Matrix<double, 9, 9>;
 
 /// Coefficients over the three corners of the four directions u, v, RS, LS (columns) [1/m].
 inline Eigen::Matrix<double, 3, 4> membrane_directions(const RestTriangle& rest) {
@@ -50,15 +50,9 @@ Scalar membrane_energy(const RestTriangle& rest, const MembraneStiffness& k,
   return energy;
 }
 
-/// dE/dx [N].
+/// dE/dx [N] of one triangle.
 Vec9 membrane_gradient(const RestTriangle& rest, const MembraneStiffness& k,
                        const Corners3<double>& x);
-
-/// d2E/dx2 [N/m] with its negative geometric parts scaled by 1 - blend: per direction
-/// k A c_i c_j [(1 - 1/l) I + (1/l) w w^T / l^2], where 1 - 1/l < 0 under compression. blend = 0 is
-/// the true Hessian; blend = 1 is positive semidefinite, without an eigenvalue decomposition.
-Mat9 membrane_hessian(const RestTriangle& rest, const MembraneStiffness& k,
-                      const Corners3<double>& x, double blend = 0);
 
 /// d(dE/dx)/d(k_u, k_v, k_h) [m].
 Eigen::Matrix<double, 9, 3> membrane_gradient_dstiffness(const RestTriangle& rest,

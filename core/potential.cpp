@@ -17,6 +17,20 @@ MembraneStiffness membrane_stiffness(const Fabric& fabric) {
   return {fabric.k_u, fabric.k_v, fabric.k_h};
 }
 
+/// Padded states of the evaluation at hand, kept by each thread: evaluations allocate nothing.
+PaddedState& padded(const VecX& x) {
+  thread_local PaddedState state;
+  state.resize(Eigen::NoChange, x.size() / 3);
+  state.topRows<3>() = x.reshaped(3, x.size() / 3);
+  return state;
+}
+
+PaddedState& zero_gradient(Eigen::Index vertices) {
+  thread_local PaddedState gradient;
+  gradient.setZero(4, vertices);
+  return gradient;
+}
+
 }  // namespace
 
 Potential::Potential(std::shared_ptr<const Discretization> discretization, const Fabric& fabric,
@@ -31,6 +45,8 @@ void Potential::set_fabric(const Fabric& fabric) {
   fabric_ = fabric;
   laws_.clear();
   for (const Wing& wing : mesh().wings) laws_.push_back(wing_law(wing, fabric, reading_));
+  law_batches_ = batches_of_laws(discretization_->wing_batches(), laws_);
+  weigh();
 }
 
 void Potential::set_gravity(double gravity) {
@@ -38,6 +54,17 @@ void Potential::set_gravity(double gravity) {
     throw std::invalid_argument("gravity = " + std::to_string(gravity) +
                                 ": must be finite and >= 0 m/s^2");
   gravity_ = gravity;
+  weigh();
+}
+
+void Potential::weigh() {
+  weight_ = VecX::Zero(3 * mesh().vertex_count());
+  for (int v = 0; v < mesh().vertex_count(); ++v)
+    weight_[3 * v + 2] = fabric_.areal_density * gravity_ * mesh().nodal_area[v];
+}
+
+WingSet Potential::wings() const {
+  return {discretization_->wing_batches(), law_batches_, reading_.law};
 }
 
 Corners3<double> Potential::triangle_corners(int triangle, const VecX& x) const {
@@ -55,71 +82,47 @@ Corners4<double> Potential::wing_corners(int wing, const VecX& x) const {
 }
 
 double Potential::energy(const VecX& x) const {
-  const std::vector<int>& active = discretization_->active_triangles();
-  const MembraneStiffness k = membrane_stiffness(fabric_);
-  const int triangles = static_cast<int>(active.size());
-  const int wings = static_cast<int>(mesh().wings.size());
-  std::vector<double> parts(static_cast<size_t>(triangles + wings));
-#pragma omp parallel
-  {
-#pragma omp for schedule(static) nowait
-    for (int i = 0; i < triangles; ++i) {
-      const int t = active[static_cast<size_t>(i)];
-      parts[static_cast<size_t>(i)] =
-          membrane_energy<double>(mesh().rest[static_cast<size_t>(t)], k, triangle_corners(t, x));
-    }
-#pragma omp for schedule(static)
-    for (int w = 0; w < wings; ++w)
-      parts[static_cast<size_t>(triangles + w)] =
-          wing_energy(laws_[static_cast<size_t>(w)], fold_angle(wing_corners(w, x)));
-  }
-  double sum = 0;
-  for (double part : parts) sum += part;
+  const PaddedState& positions = padded(x);
+  double energy =
+      membrane_energy(discretization_->triangle_batches(), membrane_stiffness(fabric_), positions) +
+      bending_energy(wings(), positions) + weight_.dot(x);
+  if (guide_) energy += guide_energy(x);
+  return energy;
+}
 
-  double weighted_height = 0;
+double Potential::energy_and_gradient(const VecX& x, VecX& gradient) const {
+  const PaddedState& positions = padded(x);
+  PaddedState& sum = zero_gradient(mesh().vertex_count());
+  double energy = add_membrane_gradient(discretization_->triangle_batches(),
+                                        membrane_stiffness(fabric_), positions, sum);
+  energy += add_bending_gradient(wings(), positions, sum);
+  energy += weight_.dot(x);
+  gradient.resize(x.size());
   for (int v = 0; v < mesh().vertex_count(); ++v)
-    weighted_height += mesh().nodal_area[v] * x[3 * v + 2];
-  sum += fabric_.areal_density * gravity_ * weighted_height;
-
+    if (mesh().fixed[static_cast<size_t>(v)])
+      gradient.segment<3>(3 * v).setZero();
+    else
+      gradient.segment<3>(3 * v) = weight_.segment<3>(3 * v) + sum.col(v).head<3>();
   if (guide_) {
-    double misses = 0;
-    for (size_t i = 0; i < rim_.vertices.size(); ++i) {
-      const double miss = guide_miss(*guide_, x.segment<2>(3 * rim_.vertices[i])).value;
-      misses += rim_.share[i] * miss * miss;
-    }
-    sum += 0.5 * guide_stiffness() * misses;
+    energy += guide_energy(x);
+    gradient += guide_gradient(x);
   }
-  return sum;
+  return energy;
 }
 
 VecX Potential::gradient(const VecX& x) const {
-  const std::vector<int>& active = discretization_->active_triangles();
-  const MembraneStiffness k = membrane_stiffness(fabric_);
-  const int triangles = static_cast<int>(active.size());
-  const int wings = static_cast<int>(mesh().wings.size());
-  std::vector<double> corners(3 * static_cast<size_t>(discretization_->element_corner_count()));
-#pragma omp parallel
-  {
-#pragma omp for schedule(static) nowait
-    for (int i = 0; i < triangles; ++i) {
-      const int t = active[static_cast<size_t>(i)];
-      Eigen::Map<Vec9>(corners.data() + 9 * static_cast<size_t>(i)) =
-          membrane_gradient(mesh().rest[static_cast<size_t>(t)], k, triangle_corners(t, x));
-    }
-#pragma omp for schedule(static)
-    for (int w = 0; w < wings; ++w) {
-      const Corners4<double> wing = wing_corners(w, x);
-      Eigen::Map<Vec12>(corners.data() + 9 * static_cast<size_t>(triangles) +
-                        12 * static_cast<size_t>(w)) =
-          wing_moment(laws_[static_cast<size_t>(w)], fold_angle(wing)) * fold_angle_gradient(wing);
-    }
+  VecX gradient;
+  energy_and_gradient(x, gradient);
+  return gradient;
+}
+
+double Potential::guide_energy(const VecX& x) const {
+  double misses = 0;
+  for (size_t i = 0; i < rim_.vertices.size(); ++i) {
+    const double miss = guide_miss(*guide_, x.segment<2>(3 * rim_.vertices[i])).value;
+    misses += rim_.share[i] * miss * miss;
   }
-  VecX g = VecX::Zero(x.size());
-  for (int v : discretization_->free_vertices())
-    g[3 * v + 2] = fabric_.areal_density * gravity_ * mesh().nodal_area[v];
-  discretization_->gather_gradient(corners, g);
-  if (guide_) g += guide_gradient(x);
-  return g;
+  return 0.5 * guide_stiffness() * misses;
 }
 
 VecX Potential::guide_gradient(const VecX& x) const {
@@ -133,42 +136,11 @@ VecX Potential::guide_gradient(const VecX& x) const {
 }
 
 void Potential::hessian(const VecX& x, double blend, SparseMatrix& H) const {
-  const std::vector<int>& active = discretization_->active_triangles();
-  const MembraneStiffness k = membrane_stiffness(fabric_);
-  const int triangles = static_cast<int>(active.size());
-  const int wings = static_cast<int>(mesh().wings.size());
-  std::vector<double> blocks(9 * static_cast<size_t>(discretization_->element_block_count()));
-  const auto store = [&](const auto& element, int corners, int first_block) {
-    for (int i = 0; i < corners; ++i)
-      for (int j = 0; j <= i; ++j)
-        Eigen::Map<Mat3>(blocks.data() +
-                         9 * static_cast<size_t>(first_block + Discretization::lower_index(i, j))) =
-            element.template block<3, 3>(3 * i, 3 * j);
-  };
-#pragma omp parallel
-  {
-#pragma omp for schedule(static) nowait
-    for (int i = 0; i < triangles; ++i) {
-      const int t = active[static_cast<size_t>(i)];
-      store(membrane_hessian(mesh().rest[static_cast<size_t>(t)], k, triangle_corners(t, x), blend),
-            3, discretization_->triangle_block(i));
-    }
-#pragma omp for schedule(static)
-    for (int w = 0; w < wings; ++w) {
-      const WingLaw& law = laws_[static_cast<size_t>(w)];
-      const Corners4<double> wing = wing_corners(w, x);
-      const double delta = fold_angle(wing);
-      Vec12 d;
-      Mat12 dd;
-      fold_angle_derivatives(wing, d, dd);
-      // E'' d d^T is never negative; the second-order term of the angle is the geometric part
-      const Mat12 element =
-          wing_tangent(law, delta) * d * d.transpose() + (1 - blend) * wing_moment(law, delta) * dd;
-      store(element, 4, discretization_->wing_block(w));
-    }
-  }
-  H = discretization_->hessian_pattern();
-  discretization_->gather_hessian(blocks, H);
+  const PaddedState& positions = padded(x);
+  discretization_->reset_hessian(H);
+  add_membrane_hessian(discretization_->triangle_batches(), discretization_->triangle_places(),
+                       membrane_stiffness(fabric_), positions, blend, H.valuePtr());
+  add_bending_hessian(wings(), discretization_->wing_places(), positions, blend, H.valuePtr());
   if (guide_) add_guide_hessian(x, blend, H);
 }
 

@@ -4,13 +4,16 @@
 //          + areal_density g sum_i A_i z_i  [+ a guide, see guide.h]
 //
 // with A_i the nodal areas. Fixed vertices have no unknowns: their rows of a gradient are zero.
-// Evaluations are parallel over elements and give the same bits for any number of threads.
+// Evaluations are serial, several elements at a time (lanes.h): drapes are parallel over fabrics,
+// and sums have one order whatever the number of threads.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "core/batched_bending.h"
+#include "core/batched_membrane.h"
 #include "core/bending.h"
 #include "core/discretization.h"
 #include "core/fabric.h"
@@ -44,8 +47,12 @@ class Potential {
   /// dE/dx (3n) [N].
   VecX gradient(const VecX& x) const;
 
-  /// d2E/dx2 over the unknowns (free order, lower triangle) [N/m]. The negative geometric parts are
-  /// scaled by 1 - blend: 0 is the true Hessian, 1 a positive semidefinite one for Newton steps
+  /// Both at once, for little more than the gradient alone; gradient: resized to 3n.
+  double energy_and_gradient(const VecX& x, VecX& gradient) const;
+
+  /// d2E/dx2 over the unknowns (free order, lower triangle) [N/m]. A matrix that has the sparsity
+  /// of Discretization::hessian_pattern already is filled in place. The negative geometric parts
+  /// are scaled by 1 - blend: 0 is the true Hessian, 1 a positive semidefinite one for Newton steps
   /// only.
   void hessian(const VecX& x, double blend, SparseMatrix& H) const;
 
@@ -72,6 +79,9 @@ class Potential {
  private:
   Corners3<double> triangle_corners(int triangle, const VecX& x) const;
   Corners4<double> wing_corners(int wing, const VecX& x) const;
+  void weigh();
+  WingSet wings() const;
+  double guide_energy(const VecX& x) const;
   void add_guide_hessian(const VecX& x, double blend, SparseMatrix& H) const;
   double guide_stiffness() const;
   VecX guide_gradient(const VecX& x) const;
@@ -79,8 +89,10 @@ class Potential {
   std::shared_ptr<const Discretization> discretization_;
   Fabric fabric_;
   BendingReading reading_;
-  double gravity_;
-  std::vector<WingLaw> laws_;  // one a wing
+  double gravity_ = 0;
+  std::vector<WingLaw> laws_;              // one a wing
+  std::vector<WingLawBatch> law_batches_;  // the same for the batches
+  VecX weight_;                            // gradient of the gravity term (3n) [N]
   std::optional<Guide> guide_;
   Rim rim_;
 };

@@ -10,6 +10,8 @@
 #include <cholmod.h>
 #include <omp.h>
 
+#include "core/supernodal_sweep.h"
+
 // OpenBLAS, when it is the BLAS of this process, would start threads of its own.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 #endif
@@ -82,10 +84,42 @@ struct SparseFactor::Numeric {
   cholmod_factor* factor = nullptr;
   std::unique_ptr<EigenFactor> eigen;
   bool valid = false;
+  VecX inverse_diagonal, permuted, panel;  // of solve_in_place
   Numeric() { start(common); }
   ~Numeric() {
     cholmod_free_factor(&factor, &common);
     cholmod_finish(&common);
+  }
+
+  Supernodes supernodes() const {
+    const auto ints = [](const void* p) { return static_cast<const int*>(p); };
+    return {static_cast<int>(factor->nsuper),
+            ints(factor->super),
+            ints(factor->pi),
+            ints(factor->px),
+            ints(factor->s),
+            static_cast<const double*>(factor->x)};
+  }
+
+  void prepare_solves() {
+    const Supernodes L = supernodes();
+    const auto n = static_cast<Eigen::Index>(factor->n);
+    inverse_diagonal.resize(n);
+    permuted.resize(n);
+    panel.resize(static_cast<Eigen::Index>(factor->maxesize + factor->n));
+    for (int s = 0; s < L.count; ++s) {
+      const int first = L.first_column[s], rows = L.row_start[s + 1] - L.row_start[s];
+      for (int j = first; j < L.first_column[s + 1]; ++j)
+        inverse_diagonal[j] =
+            1 / L.values[L.value_start[s] + static_cast<std::ptrdiff_t>(j - first) * (rows + 1)];
+    }
+  }
+
+  void solve(VecX& x) {
+    const int* const order = static_cast<const int*>(factor->Perm);
+    for (Eigen::Index i = 0; i < x.size(); ++i) permuted[i] = x[order[i]];
+    solve_supernodal(supernodes(), inverse_diagonal.data(), permuted.data(), panel.data());
+    for (Eigen::Index i = 0; i < x.size(); ++i) x[order[i]] = permuted[i];
   }
 };
 #else
@@ -179,6 +213,7 @@ bool SparseFactor::factorize(const SparseMatrix& lower) {
                                std::to_string(numeric_->common.status));
     numeric_->valid =
         numeric_->common.status == CHOLMOD_OK && numeric_->factor->minor == numeric_->factor->n;
+    if (numeric_->valid) numeric_->prepare_solves();
     return numeric_->valid;
   }
 #endif
@@ -211,6 +246,14 @@ MatX SparseFactor::solve(const MatX& right_hand_sides) const {
   return numeric_->eigen->solve(right_hand_sides);
 }
 
+void SparseFactor::solve_in_place(VecX& x) const {
+  if (!numeric_->valid) throw std::logic_error("sparse factorisation: solve without a factor");
+#ifdef DRAPE_WITH_CHOLMOD
+  if (symbolic_->backend() == FactorBackend::cholmod) return numeric_->solve(x);
+#endif
+  x = numeric_->eigen->solve(x);
+}
+
 int negative_eigenvalues(const SparseMatrix& lower) {
   const EigenFactor factor(lower);
   if (factor.info() != Eigen::Success) return -1;
@@ -223,7 +266,8 @@ double smallest_eigenvalue(const SparseFactor& factor) {
   v.normalize();
   double inverse = 1;
   for (int i = 0; i < kInverseIterations; ++i) {
-    const VecX w = factor.solve(v);
+    VecX w = v;
+    factor.solve_in_place(w);
     inverse = v.dot(w);
     v = w.normalized();
   }

@@ -59,6 +59,10 @@ class SparseFactor {
   /// Solves H X = B, any number of columns. Requires a successful factorisation.
   MatX solve(const MatX& right_hand_sides) const;
 
+  /// x <- H^-1 x, without allocating (CHOLMOD; a factor is solved with many times). Requires a
+  /// successful factorisation.
+  void solve_in_place(VecX& x) const;
+
  private:
   struct Numeric;
   std::shared_ptr<const SymbolicFactor> symbolic_;

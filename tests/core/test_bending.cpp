@@ -9,6 +9,7 @@
 
 #include "core/bending.h"
 #include "tests/support/derivative_check.h"
+#include "tests/support/element_kernels.h"
 #include "tests/support/hyper_dual.h"
 #include "tests/support/shapes.h"
 

@@ -71,6 +71,35 @@ TEST_F(PotentialTest, GradientAgainstEnergy) {
     }
 }
 
+TEST_F(PotentialTest, EnergyAndGradientAtOnce) {
+  for (const bool guided : {false, true}) {
+    Potential E = potential(kReadings[1]);
+    if (guided) E.set_guide(lobed_guide());
+    VecX g(5);  // of another size
+    const double energy = E.energy_and_gradient(x_, g);
+    EXPECT_NEAR(energy, E.energy(x_), 1e-15 * energy);  // one sum, compiled twice
+    EXPECT_EQ(g, E.gradient(x_));
+    E.energy_and_gradient(flat_state(disc_->mesh()), g);
+    E.energy_and_gradient(x_, g);
+    EXPECT_EQ(g, E.gradient(x_));  // nothing is left of the evaluation before
+  }
+}
+
+TEST_F(PotentialTest, HessianIsFilledInPlace) {
+  const Potential E = potential(kReadings[1]);
+  SparseMatrix H, reference;
+  E.hessian(x_, 0, reference);
+  E.hessian(flat_state(disc_->mesh()), 0.5, H);
+  const double* const values = H.valuePtr();
+  E.hessian(x_, 0, H);
+  EXPECT_EQ(H.valuePtr(), values);
+  EXPECT_EQ((H - reference).norm(), 0);
+  SparseMatrix other(H.rows(), H.cols());
+  other.setIdentity();
+  E.hessian(x_, 0, other);
+  EXPECT_EQ((other - reference).norm(), 0);
+}
+
 TEST_F(PotentialTest, HessianAgainstGradient) {
   for (const BendingReading reading : kReadings)
     for (const bool guided : {false, true}) {

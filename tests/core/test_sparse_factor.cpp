@@ -49,6 +49,33 @@ TEST(SparseFactor, SolvesAnyNumberOfColumns) {
     // condition number 80, times rounding
     EXPECT_LE((full * factor.solve(B) - B).norm(), 1e-13 * B.norm()) << name(backend);
     EXPECT_LE((factor.solve(B.col(1)) - factor.solve(B).col(1)).norm(), 1e-13);
+    VecX x = B.col(1);
+    factor.solve_in_place(x);
+    EXPECT_LE((factor.solve(B).col(1) - x).norm(), 1e-13);
+  }
+}
+
+/// Panels of all widths: a dense block, bordered blocks, and single columns.
+TEST(SparseFactor, SolvesInPlaceWithAllShapesOfSupernodes) {
+  for (const int dense : {1, 2, 3, 4, 5, 7, 13, 40}) {
+    const int n = dense + 60;
+    MatX A = MatX::Identity(n, n) * 50;
+    Random random(1);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < i; ++j)
+        if (i >= 60 || i - j <= 1 || (i % 7 == 0 && i - j < 7)) A(i, j) = random.uniform(-1, 1);
+    const SparseMatrix lower = MatX(A.triangularView<Eigen::Lower>()).sparseView();
+    const MatX full = full_matrix(lower);
+    const VecX b = random_vector(n, random);
+    for (const FactorBackend backend : backends()) {
+      SparseFactor factor = factor_for(lower, backend);
+      VecX x = b;
+      EXPECT_THROW(factor.solve_in_place(x), std::logic_error);
+      ASSERT_TRUE(factor.factorize(lower));
+      factor.solve_in_place(x);
+      EXPECT_LE((full * x - b).norm(), 1e-13 * b.norm()) << dense << ", " << name(backend);
+      EXPECT_EQ(x.size(), n);
+    }
   }
 }
 
