@@ -48,7 +48,8 @@ inline ElementDerivatives membrane_derivatives(const RestTriangle& rest, const M
                                                double blend = 0) {
   Mesh mesh;
   mesh.rest = {rest};
-  mesh.triangles = Eigen::RowVector3i(0, 1, 2);
+  mesh.triangles.resize(1, 3);
+  mesh.triangles << 0, 1, 2;
   const std::vector<TriangleBatch> batches = batches_of_triangles(mesh, {0});
   SingleElement<TrianglePlaces, 3> element(corners);
   const double energy = add_membrane_gradient(batches, k, element.x, element.gradient);
