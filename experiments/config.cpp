@@ -297,8 +297,9 @@ void check_together(const Loaded& loaded, const std::string& name) {
   }
   if (kind == Kind::quickstart && settings.quickstart.table.empty())
     refuse("experiment.kind", "the quickstart needs quickstart.table");
-  const bool only_forward =
-      kind == Kind::drape || kind == Kind::dataset || kind == Kind::robustness;
+  const bool only_forward = kind == Kind::drape || kind == Kind::dataset ||
+                            kind == Kind::robustness || kind == Kind::validation ||
+                            kind == Kind::accuracy;
   if (settings.reading.law == BendingLaw::secant && !only_forward)
     refuse("fabric.bending_law",
            "the secant law has no derivative; this kind of experiment needs \"tangent\"");

@@ -10,8 +10,8 @@ namespace drape {
 
 template <>
 std::vector<std::string> names_of<Kind>() {
-  return {"drape",          "dataset",    "estimate",  "photograph",
-          "gradient_check", "robustness", "quickstart"};
+  return {"drape",      "dataset",    "estimate",   "photograph", "gradient_check",
+          "robustness", "quickstart", "validation", "accuracy"};
 }
 template <>
 std::vector<std::string> names_of<MeshKind>() {
@@ -272,6 +272,27 @@ std::vector<ConfigKey> make_keys() {
       MEMBER(quickstart.mm_per_pixel));
   add("quickstart", "areal_density", "kg/m^2", kNotNegative,
       "Mass per area of the fabric in the photograph.", MEMBER(quickstart.areal_density));
+
+  add("validation", "slenderness", "", kPositive,
+      "Lengths of the cantilever strips over (B / weight per area)^(1/3).",
+      MEMBER(validation.slenderness));
+  add("validation", "edge_lengths", "m", kPositive, "Edge lengths of the strips' meshes.",
+      MEMBER(validation.edge_lengths));
+  add("validation", "widths", "m", kPositive, "Widths of the strips.", MEMBER(validation.widths));
+  add("validation", "plate_vertices", "", kVertices, "Mesh sizes of the annular plate.",
+      MEMBER(validation.plate_vertices));
+  add("validation", "seeds", "", at_least(1), "Meshes of every size.", MEMBER(validation.seeds));
+  add("validation", "bias_vertices", "", kVertices,
+      "Mesh sizes of the drapes on turned meshes; [] for none.", MEMBER(validation.bias_vertices));
+  add("validation", "rotations", "", at_least(1), "Rotations of every mesh, over half a turn.",
+      MEMBER(validation.rotations));
+
+  add("accuracy", "vertices", "", kVertices, "Mesh sizes.", MEMBER(accuracy.vertices));
+  add("accuracy", "reference_vertices", "", kVertices, "Mesh size of the reference drapes.",
+      MEMBER(accuracy.reference_vertices));
+  add("accuracy", "seeds", "", at_least(1), "Meshes of every size.", MEMBER(accuracy.seeds));
+  add("accuracy", "fabrics", "", {1, 9, true}, "How many of the study's nine fabrics.",
+      MEMBER(accuracy.fabrics));
   return keys;
 }
 

@@ -26,5 +26,7 @@ RunOutcome run_photograph(const Settings& settings, OutputFolder& folder);
 RunOutcome run_gradient_check(const Settings& settings, OutputFolder& folder);
 RunOutcome run_robustness(const Settings& settings, OutputFolder& folder);
 RunOutcome run_quickstart(const Settings& settings, OutputFolder& folder);
+RunOutcome run_validation(const Settings& settings, OutputFolder& folder);
+RunOutcome run_accuracy(const Settings& settings, OutputFolder& folder);
 
 }  // namespace drape

@@ -39,6 +39,10 @@ RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
       return run_robustness(settings, folder);
     case Kind::quickstart:
       return run_quickstart(settings, folder);
+    case Kind::validation:
+      return run_validation(settings, folder);
+    case Kind::accuracy:
+      return run_accuracy(settings, folder);
   }
   throw std::logic_error("a kind of experiment without a function");
 }

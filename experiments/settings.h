@@ -18,7 +18,17 @@
 
 namespace drape {
 
-enum class Kind { drape, dataset, estimate, photograph, gradient_check, robustness, quickstart };
+enum class Kind {
+  drape,
+  dataset,
+  estimate,
+  photograph,
+  gradient_check,
+  robustness,
+  quickstart,
+  validation,
+  accuracy
+};
 
 struct Experiment {
   Kind kind = Kind::drape;
@@ -122,6 +132,23 @@ struct PhotographSettings {
   double prior_log_sd = 1;      ///< 0: no prior
 };
 
+struct ValidationSettings {
+  std::vector<double> slenderness{0.5, 1, 1.5, 2, 3, 4};
+  std::vector<double> edge_lengths{0.006, 0.004, 0.003, 0.002, 0.0015};  ///< of strips [m]
+  std::vector<double> widths{0.01, 0.02, 0.04, 0.08};                    ///< of strips [m]
+  std::vector<int> plate_vertices{500, 1000, 2000, 4000, 8000};
+  int seeds = 5;
+  std::vector<int> bias_vertices{1000, 2000};
+  int rotations = 8;
+};
+
+struct AccuracySettings {
+  std::vector<int> vertices{500, 1000, 2000, 4000, 8000};
+  int reference_vertices = 30000;
+  int seeds = 5;
+  int fabrics = 9;
+};
+
 struct Settings {
   Experiment experiment;
   Fabric fabric;
@@ -136,6 +163,8 @@ struct Settings {
   GradientCheckSettings gradient_check;
   RobustnessSettings robustness;
   QuickstartSettings quickstart;
+  ValidationSettings validation;
+  AccuracySettings accuracy;
 };
 
 }  // namespace drape
