@@ -93,6 +93,7 @@ Json to_json(const Comparison& c) {
           {"error", c.error()},
           {"rigidity_over_k", c.rigidity_over_k},
           {"mean_rigidity_over_k", c.mean_rigidity_over_k},
+          {"radial_energy_ratio", c.radial_energy_ratio},
           {"worst_place", c.worst_place},
           {"residual", c.residual},
           {"drape_cpu_seconds", c.cpu_seconds}};
@@ -111,11 +112,12 @@ Json table(const std::vector<Json>& items) {
     if (item["status"] == "converged") rows[number(item["value"])].push_back(&item);
   Json list = Json::array();
   for (const auto& [value, row] : rows) {
-    std::vector<double> errors, bulk, mean_rigidity, vertices, expected;
+    std::vector<double> errors, bulk, mean_rigidity, radial, vertices, expected;
     for (const Json* item : row) {
       errors.push_back(number((*item)["error"]));
       bulk.push_back(number((*item)["rigidity_over_k"]));
       mean_rigidity.push_back(number((*item)["mean_rigidity_over_k"]));
+      radial.push_back(number((*item)["radial_energy_ratio"]));
       vertices.push_back(number((*item)["vertices"]));
       expected.push_back(number((*item)["expected"]));
     }
@@ -125,7 +127,8 @@ Json table(const std::vector<Json>& items) {
                     {"mean_error", mean(errors)},
                     {"errors", errors},
                     {"rigidity_over_k", mean(bulk)},
-                    {"mean_rigidity_over_k", mean(mean_rigidity)}});
+                    {"mean_rigidity_over_k", mean(mean_rigidity)},
+                    {"radial_energy_ratio", mean(radial)}});
   }
   return list;
 }

@@ -151,6 +151,9 @@ std::vector<Json> drape_turned_meshes(const Settings& settings, const OutputFold
     Settings turned = settings;
     turned.mesh.seed = static_cast<std::uint64_t>(seed);
     turned.mesh.rotation = kPi * rotation / v.rotations;  // half a turn leaves the fabric as it was
+    // the ramp's noise belongs to the vertices: the same for all turns, it would turn the folds,
+    // too
+    turned.start.seed = settings.start.seed + static_cast<std::uint64_t>(rotation);
     std::vector<int> missing;
     for (int i = 0; i < per_mesh; ++i)
       if (!store.has(name_of(vertices, seed, rotation, i))) missing.push_back(i);

@@ -12,6 +12,8 @@
 namespace drape {
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
+
 /// The rest state on a cylinder of curvature kappa; flat where `one_sided` and along < 0.
 VecX cylinder(const Mesh& mesh, double kappa, double angle, bool one_sided) {
   const Vec2 along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
@@ -31,6 +33,30 @@ Fabric evenly_bent(Fabric fabric, double k_b) {
   fabric.k_bu = fabric.k_bv = fabric.k_bh = k_b;
   fabric.s_bu = fabric.s_bv = fabric.s_bh = 1;
   return fabric;
+}
+
+double energy_of(const Wing& wing, const Fabric& fabric, const VecX& x) {
+  Corners4<double> corners;
+  for (size_t k = 0; k < 4; ++k)
+    corners.col(static_cast<Eigen::Index>(k)) = position(x, wing.vertices[k]);
+  return wing_energy(wing_law(wing, fabric, {}), fold_angle(corners));
+}
+
+/// Comparison::radial_energy_ratio of a fabric whose bulk rigidity on the mesh is B.
+double radial_energy_ratio(const Mesh& mesh, const Scene& scene, const Fabric& fabric, double B) {
+  const double a = scene.support_radius, b = scene.specimen_radius, nu = -1.0 / 3;
+  const double kappa = 1e-2;  // a sag of 2e-5 m: angles are small
+  VecX x = flat_state(mesh);
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    x[3 * v + 2] = -kappa / 2 * std::pow(std::max(0.0, mesh.rest_uv.row(v).norm() - a), 2);
+  double energy = 0;
+  for (const Wing& wing : mesh.wings) energy += energy_of(wing, fabric, x);
+  // Kirchhoff: pi B times the integral of (k_r^2 + k_t^2 + 2 nu k_r k_t) r dr, k_t = kappa (r-a)/r
+  const double l = b - a, logarithm = std::log(b / a);
+  const double radial = (b * b - a * a) / 2;
+  const double tangential = (b * b - a * a) / 2 - 2 * a * l + a * a * logarithm;
+  const double mixed = l * l / 2;
+  return energy / (kPi * B * kappa * kappa * (radial + tangential + 2 * nu * mixed));
 }
 
 Comparison solved(const Potential& potential, const Equilibrium& equilibrium) {
@@ -54,10 +80,7 @@ CylinderRigidity cylinder_rigidity(const Mesh& mesh, const Fabric& fabric, doubl
     // a wing on the clamp line belongs to the free area by half
     const double share = wing.on_clamp_line ? 0.5 : 1;
     if (wing.on_clamp_line) wing.weight /= mesh.clamp_wing_factor;
-    Corners4<double> corners;
-    for (size_t k = 0; k < 4; ++k)
-      corners.col(static_cast<Eigen::Index>(k)) = position(x, wing.vertices[k]);
-    energy += share * wing_energy(wing_law(wing, fabric, {}), fold_angle(corners));
+    energy += share * energy_of(wing, fabric, x);
     const Vec2 edge = mesh.rest_uv.row(wing.vertices[1]) - mesh.rest_uv.row(wing.vertices[0]);
     wing_area += share * edge.norm() * wing.mean_height / 3;
   }
@@ -150,6 +173,7 @@ Comparison annulus_sag(int vertices, std::uint64_t seed, double clamp_wing_facto
   Comparison result = solved(potential, plate);
   result.rigidity_over_k = unit.bulk;
   result.mean_rigidity_over_k = unit.mean;
+  result.radial_energy_ratio = radial_energy_ratio(d->mesh(), scene, fabric, B);
   result.expected =
       reference::annulus_sag(B, q, scene.support_radius, scene.specimen_radius, -1.0 / 3);
   for (const int v : d->mesh().boundary) result.measured -= plate.x[3 * v + 2];

@@ -25,6 +25,9 @@ struct Comparison {
   int vertices = 0;
   double rigidity_over_k = 0;       ///< bulk B/k_b of the mesh; 0 where it plays no part
   double mean_rigidity_over_k = 0;  ///< CylinderRigidity::mean / k_b
+  /// Plate: energy of the mesh over that of the plate when the overhang is bent to a constant
+  /// radial curvature; less than 1 where the mesh is softer across its circles than in its bulk.
+  double radial_energy_ratio = 0;
   double measured = 0, expected = 0;
   double worst_place =
       0;  ///< hanging strip: largest displacement error over the tip's displacement

@@ -2,6 +2,7 @@
 """The figure scripts on made-up results: they write what they promise, say failures in words, and no
 two texts of a page overlap."""
 
+import json
 import subprocess
 import sys
 import tempfile
@@ -15,11 +16,13 @@ import numpy as np
 FIGURES = Path(__file__).resolve().parents[2] / "experiments" / "figures"
 sys.path.insert(0, str(FIGURES))
 
+import accuracy  # noqa: E402
 import drape_sheet  # noqa: E402
 import estimate_overlay  # noqa: E402
 import results as records  # noqa: E402
 import robustness  # noqa: E402
 import style  # noqa: E402
+import validation  # noqa: E402
 
 SUPPORT, SPECIMEN = 0.09, 0.15
 PARAMETERS = ["areal_density", "k_u", "k_v", "k_h", "k_bu", "k_bv", "k_bh", "s_bu", "s_bv", "s_bh",
@@ -101,14 +104,48 @@ def write(path, count, vertices=600, outcomes=("succeeded",), status="converged"
         file["estimate/node_count"] = [shape[1] for shape in shapes]
 
 
+def validation_summary():
+    """What a run of kind validation writes, made up."""
+    def rows(values, expected=0.01):
+        return [{"value": value, "expected": expected * value, "mean_error": 0.01 * value,
+                 "errors": [0.008 * value, 0.012 * value], "rigidity_over_k": 4.1 + 0.01 * i,
+                 "mean_rigidity_over_k": 4.0} for i, value in enumerate(values)]
+    studies = {"slenderness": rows([0.5, 1, 2]), "edge_length": rows([0.0015, 0.003, 0.006]),
+               "width": rows([0.01, 0.02, 0.04]), "bent_direction": rows([0, 45, 90]),
+               "hanging_direction": rows([0, 45, 90]),
+               "hanging_far_stretched": rows([0, 45, 90], 1e-4),
+               "plate": rows([500, 1000, 2000]),
+               "plate_single_clamp_weight": rows([500, 1000, 2000])}
+    bias = {f"{softness} anisotropic, {vertices}, {start}": {
+        "mean": 57.123, "sd": 10.66, "sd_over_rotations": 10.67, "coherence_with_fabric": None,
+        "coherence_with_mesh": 0.03, "nodes": {"10": 3, "6": 4, "7": 1}}
+        for softness in ("stiff", "medium", "soft") for vertices in (1000, 2000)
+        for start in ("lobes", "ramp")}
+    return {"solves": 90, "converged": 89, "cantilever_order": 1.04, "plate_order": 2.1,
+            "studies": studies, "mesh_bias": bias}
+
+
+def accuracy_summary():
+    """What a run of kind accuracy writes, made up; a soft fabric that no mesh follows."""
+    def row(error, share):
+        return {"error_median": error, "error_95": error and 2 * error,
+                "same_nodes_error_median": 0.9, "matched_share": share, "cold_matched_share": 0,
+                "cold_cpu_seconds_median": 1.3}
+    return {"reference_vertices": 30000, "fabrics": 9, "per_softness": {
+        "stiff": {"500": row(0.6, 1), "1000": row(0.3, 1)},
+        "soft": {"500": row(None, 0), "1000": row(None, 0)}}}
+
+
 def texts(page):
     """The texts of a page with their boxes in pixels."""
     page.figure.canvas.draw()
     found = list(page.figure.texts)
     for axes in page.figure.axes:
         found += axes.texts
-        if axes.axison:
-            found += axes.get_xticklabels() + axes.get_yticklabels()
+        for axis in (axes.xaxis, axes.yaxis) if axes.axison else ():
+            low, high = sorted(axis.get_view_interval())
+            found += [tick.label1 for tick in axis.get_major_ticks() + axis.get_minor_ticks()
+                      if low <= tick.get_loc() <= high]  # others exist and are not drawn
     return [(text, text.get_window_extent()) for text in found if text.get_text().strip()]
 
 
@@ -160,6 +197,33 @@ class Figures(unittest.TestCase):
             page = estimate_overlay.overlay(results, results.records[0])
             self.check_layout(page)
             self.assertEqual(outcome != "succeeded", "did not succeed" in self.words(page))
+
+    def test_pages_of_studies_are_readable(self):
+        summary = validation_summary()
+        page = validation.page(summary)
+        self.check_layout(page)
+        words = self.words(page)
+        for said in ("89 of 90", "cantilever 1.0", "soft anisotropic, 2000, ramp", "6 (6–10)"):
+            self.assertIn(said, words)
+        self.check_layout(validation.page(summary | {"mesh_bias": {}}))
+        self.check_layout(accuracy.page(accuracy_summary()))
+
+    def test_elastica_of_small_load_is_a_beam(self):
+        # c/8 with corrections of order c^3 = 1e-6 and second-order differences
+        self.assertAlmostEqual(validation.elastica_drop(0.1) / (0.001 / 8), 1, places=5)
+
+    def test_scripts_of_studies_write_both_files(self):
+        for script, summary in (("validation", validation_summary()),
+                                ("accuracy", accuracy_summary())):
+            file = self.folder / "summary.json"
+            file.write_text(json.dumps(summary))
+            done = self.run_script(f"{script}.py", file, "--out", self.folder / script)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue((self.folder / f"{script}.png").read_bytes().startswith(b"\x89PNG"))
+            file.write_text("{}")
+            done = self.run_script(f"{script}.py", file, "--out", self.folder / script)
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
 
     def test_scripts_write_both_files(self):
         write(self.file, 1)

@@ -21,22 +21,25 @@ double mean_error(int vertices, double clamp_wing_factor) {
 }
 
 TEST(Annulus, SagsLikeAPlateWithNuMinusOneThird) {
-  // measured 0.042; the next test says where it comes from
-  EXPECT_NEAR(mean_error(1000, 2), 0, 0.06);
+  EXPECT_NEAR(mean_error(1000, 2), 0, 0.06);  // 0.042 measured, see the next test
   // the reference with the Poisson's ratio of steel is further away
   const Scene scene;
   const double steel =
       reference::annulus_sag(1, 1, scene.support_radius, scene.specimen_radius, 0.3);
   const double hinges =
       reference::annulus_sag(1, 1, scene.support_radius, scene.specimen_radius, -1.0 / 3);
-  EXPECT_GT(std::abs(steel / hinges - 1), 0.1);
+  EXPECT_GT(std::abs(steel / hinges - 1), 0.06);
 }
 
 TEST(Annulus, ClampNeedsWingsOfTwiceTheWeight) {
-  // measured 0.47 and 0.098: with weight 1 the clamp turns as if half a row of triangles were soft
-  const double single = mean_error(500, 1), twice = mean_error(500, 2);
-  EXPECT_GT(single, 0.35);
-  EXPECT_LT(std::abs(twice), single / 3);
+  // What error is left with weight 2 is that of the mesh's radial rigidity, lower than its bulk's
+  // by 11 % at 500 and 5 % at 1000 vertices. Without it the sag is right within 2.3 % and 0.7 %
+  // (measured), and with weight 1 wrong by more than 20 %, as if half a row of triangles were soft.
+  for (const int vertices : {500, 1000}) {
+    const Comparison twice = annulus_sag(vertices, 1, 2), single = annulus_sag(vertices, 1, 1);
+    EXPECT_NEAR(twice.measured / twice.expected * twice.radial_energy_ratio, 1, 0.03);
+    EXPECT_GT(single.measured / single.expected * twice.radial_energy_ratio, 1.15);
+  }
 }
 
 TEST(Annulus, ErrorFallsWithTheMesh) {

@@ -17,6 +17,15 @@ TEST(References, ElasticaOfSmallLoadIsABeam) {
   EXPECT_NEAR(heavy_elastica({.B = 1}, q, 1).reach, 1, 1e-6);
 }
 
+TEST(References, ElasticaAgreesWithFiniteDifferences) {
+  // drop over length by elastica_drop() of experiments/figures/validation.py, another method, whose
+  // error at 2000 intervals is about 1e-6
+  EXPECT_NEAR(heavy_elastica({.B = 1}, std::pow(0.5, 3), 1).drop, 0.0156219, 1e-6);
+  EXPECT_NEAR(heavy_elastica({.B = 1}, 1, 1).drop, 0.1234714, 1e-6);
+  EXPECT_NEAR(heavy_elastica({.B = 1}, 8, 1).drop, 0.6406306, 1e-6);
+  EXPECT_NEAR(heavy_elastica({.B = 1}, 64, 1).drop, 0.9201126, 1e-6);
+}
+
 TEST(References, ElasticaOfLargeLoadHangsStraightDown) {
   // near the clamp an elastica under the pull q L of all its weight: B theta'' = -q L cos theta,
   // whose reach is (2 B / (q L))^(1/2), as B/2 kappa^2 = q L (1 - sin theta) integrates to
