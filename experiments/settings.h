@@ -146,7 +146,7 @@ struct AccuracySettings {
   std::vector<int> vertices{500, 1000, 2000, 4000, 8000};
   int reference_vertices = 30000;
   int seeds = 5;
-  int fabrics = 9;
+  int fabrics = 6;
 };
 
 struct Settings {
