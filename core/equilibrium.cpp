@@ -5,8 +5,10 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "core/cpu_clock.h"
+#include "core/limited_memory.h"
 
 namespace drape {
 namespace {
@@ -14,19 +16,34 @@ namespace {
 constexpr double kArmijo = 1e-4;
 constexpr double kFirstBlend = 0.1;       // the smallest blend above zero
 constexpr double kRoundingSlack = 1e-13;  // energy differences below this share of |E| are noise
-constexpr int kMaxBacktracks = 30;
-constexpr int kStagnationLimit = 4;  // steps at the noise level without a smaller residual
+constexpr double kShortestStep = 1e-9;    // of a line search, over the direction
+
+// When the preconditioner is refreshed: it costs as much as about fifteen iterations.
+constexpr double kNear = 0.1;            // residual below which the true Hessian is tried
+constexpr double kNearAfterRestart = 100;  // the same where a near-by solve lent its factor
+constexpr int kLongestUse = 25;          // iterations with one factor, far from equilibrium
+constexpr int kLongestUseNear = 60;      // and near it
+constexpr int kShortestUseNear = 8;      // iterations after which its contraction is judged
+constexpr double kIterationsWorth = 30;  // more iterations than these to go: refresh instead
+constexpr int kHardSearches = 3;         // line searches with several backtracks
+
+constexpr int kNoisePatience = 12;  // iterations below the noise of the energy without progress
+constexpr int kMaxStalls = 3;       // refreshes in a row that did not help
 constexpr int kMaxSaddles = 8;
 constexpr int kCurvatureIterations = 40;
 constexpr double kSaddleStep = 1e-3;  // first step off a saddle [m]
 
 /// The state of one minimisation; each method is one part of an iteration.
-class BlendedNewton {
+class Minimisation {
  public:
-  BlendedNewton(const Potential& potential, const VecX& x, const EquilibriumOptions& options)
+  Minimisation(const Potential& potential, const VecX& x, const EquilibriumOptions& options,
+               std::shared_ptr<const SparseFactor> nearby)
       : potential_(potential),
+        discretization_(potential.discretization()),
         options_(options),
-        factor_(std::make_shared<SparseFactor>(potential.discretization().symbolic_factor())),
+        preconditioner_(std::move(nearby)),
+        started_near_(preconditioner_ != nullptr),
+        memory_(3 * discretization_.free_vertex_count()),
         energy_scale_(potential.free_weight() * x.cwiseAbs().maxCoeff()) {
     result_.x = x;
   }
@@ -34,6 +51,7 @@ class BlendedNewton {
   Equilibrium run() {
     const double start = thread_cpu_seconds();
     minimise();
+    result_.preconditioner = preconditioner_;
     result_.cpu_seconds = thread_cpu_seconds() - start;
     return std::move(result_);
   }
@@ -45,18 +63,17 @@ class BlendedNewton {
       result_.status = EquilibriumStatus::non_finite;
       return;
     }
+    residual_at_refresh_ = result_.residual;
     for (int saddles = 0;;) {
       if (!descend()) return;
       if (!options_.certify) {
         result_.status = EquilibriumStatus::converged;
         return;
       }
-      potential_.hessian(result_.x, 0, hessian_);
-      ++result_.factorizations;
-      if (factor_->factorize(hessian_)) {
+      if (factor(0)) {
         result_.status = EquilibriumStatus::converged;
         result_.negative_eigenvalues = 0;
-        result_.factor = factor_;
+        result_.factor = preconditioner_;
         return;
       }
       result_.negative_eigenvalues = negative_eigenvalues(hessian_);
@@ -67,96 +84,179 @@ class BlendedNewton {
     }
   }
 
-  /// Newton iterations until the residual is within tolerance; false sets the status of a failure.
+  /// Iterations until the residual is within tolerance; false sets the status of a failure.
   bool descend() {
-    int stagnant = 0;
     while (result_.residual > options_.tolerance) {
       if (result_.newton_iterations >= options_.max_iterations) {
         result_.status = EquilibriumStatus::iteration_limit;
         return at_rounding_floor();
       }
       ++result_.newton_iterations;
-      factor_blended_hessian();
-      const double before = result_.residual;
-      const bool moved = line_search(newton_direction());
-      stagnant = moved && result_.residual < 0.5 * before ? 0 : stagnant + !decreased_;
-      if (!moved || stagnant >= kStagnationLimit) {
-        result_.status = EquilibriumStatus::stagnated;
-        return at_rounding_floor();
+      if (refresh_is_due()) refresh();
+      if (line_search(direction())) {
+        ++use_;
+        if (noisy_steps_ <= kNoisePatience) continue;
+        take_back_to_best();
       }
+      if (at_rounding_floor()) return true;
+      if (stalled()) {
+        result_.status = EquilibriumStatus::stagnated;
+        return false;
+      }
+      if (use_ == 0) near_blend_ = 1;
+      noisy_steps_ = 0;
+      factor_is_old_ = true;
     }
     return true;
   }
 
   void evaluate() {
-    result_.energy = potential_.energy(result_.x);
-    gradient_ = potential_.gradient(result_.x);
+    result_.energy = potential_.energy_and_gradient(result_.x, gradient_);
     result_.residual = potential_.residual(gradient_);
+    best_residual_ = result_.residual;
+    best_x_ = result_.x;
   }
 
-  void factor_blended_hessian() {
-    for (;;) {
-      potential_.hessian(result_.x, blend_, hessian_);
-      ++result_.factorizations;
-      if (factor_->factorize(hessian_)) break;
-      if (blend_ >= 1) {
-        // only a membrane without any tension and bending gets here: lift the diagonal by rounding
-        hessian_.diagonal() += VecX::Constant(hessian_.rows(), 1e-8 * hessian_.diagonal().mean());
-        ++result_.factorizations;
-        if (factor_->factorize(hessian_)) break;
-        throw std::runtime_error("equilibrium: the projected Hessian has no Cholesky factor");
+  bool near() const { return result_.residual < (started_near_ ? kNearAfterRestart : kNear); }
+
+  /// Whether a new factor is worth its price.
+  bool refresh_is_due() const {
+    if (!preconditioner_ || factor_is_old_) return true;
+    if (hard_searches_ >= kHardSearches) return true;
+    if (!near()) return use_ >= kLongestUse;
+    if (use_ >= kLongestUseNear) return true;
+    if (use_ < kShortestUseNear) return false;
+    const double rate = std::log(result_.residual / residual_at_refresh_) / use_;
+    const double to_go = std::log(options_.tolerance / result_.residual);
+    return rate >= 0 || to_go / rate > kIterationsWorth;
+  }
+
+  /// A factor of the blended Hessian at x, its blend as small as wanted and possible.
+  void refresh() {
+    double blend = near() ? near_blend_ : 1;
+    while (!factor(blend)) {
+      if (blend >= 1) {
+        lift();
+        break;
       }
-      blend_ = std::min(1.0, std::max(kFirstBlend, 2 * blend_ + kFirstBlend / 2));
+      blend = std::min(1.0, std::max(kFirstBlend, 2 * blend + kFirstBlend / 2));
     }
+    if (near()) near_blend_ = blend / 2 < kFirstBlend / 2 ? 0 : blend / 2;
+    blend_ = blend;
+    memory_.clear();
+    factor_is_old_ = false;
+    use_ = hard_searches_ = 0;
+    residual_at_refresh_ = result_.residual;
   }
 
-  VecX newton_direction() const {
-    const Discretization& d = potential_.discretization();
-    VecX direction = d.to_full(factor_->solve(-d.to_free(gradient_)));
-    const double move = largest_move(direction);
-    if (move > options_.largest_move) direction *= options_.largest_move / move;
-    return direction;
+  /// Factorises H(blend) at x; where that works the factor becomes the preconditioner.
+  bool factor(double blend) {
+    potential_.hessian(result_.x, blend, hessian_);
+    return factor_hessian();
   }
 
-  double largest_move(const VecX& direction) const {
-    double move = 0;
-    for (int v : potential_.discretization().free_vertices())
-      move = std::max(move, position(direction, v).norm());
-    return move;
+  bool factor_hessian() {
+    // a factor that is still held outside, or came from there, stays as it is
+    if (!own_factor_ || own_factor_.use_count() > (preconditioner_ == own_factor_ ? 2 : 1))
+      own_factor_ = std::make_shared<SparseFactor>(discretization_.symbolic_factor());
+    if (preconditioner_ == own_factor_) preconditioner_ = nullptr;
+    ++result_.factorizations;
+    if (!own_factor_->factorize(hessian_)) return false;
+    preconditioner_ = own_factor_;
+    return true;
+  }
+
+  /// Only stiffnesses many orders of magnitude apart get here: lift the diagonal from rounding
+  /// size upwards until there is a factor.
+  void lift() {
+    const double scale = hessian_.diagonal().maxCoeff();
+    for (double share = 1e-14; share < 1; share *= 100) {
+      hessian_.diagonal() += VecX::Constant(hessian_.rows(), share * scale);
+      if (factor_hessian()) return;
+    }
+    throw std::runtime_error("equilibrium: the projected Hessian has no Cholesky factor");
+  }
+
+  /// -H g in the free order, no vertex further than largest_move.
+  VecX direction() {
+    free_gradient_ = discretization_.to_free(gradient_);
+    VecX d = -free_gradient_;
+    memory_.apply(d, [this](VecX& q) { preconditioner_->solve_in_place(q); });
+    const double move = largest_move(d);
+    if (move > options_.largest_move) d *= options_.largest_move / move;
+    return d;
+  }
+
+  static double largest_move(const VecX& d) {
+    return d.reshaped(3, d.size() / 3).colwise().norm().maxCoeff();
   }
 
   /// Armijo backtracking on the energy; where energy differences drown in rounding, a step counts
-  /// when it lowers the residual. The next blend is tried smaller.
-  bool line_search(const VecX& direction) {
-    const double slope = gradient_.dot(direction);
+  /// unless it doubles the residual, and the best state is kept.
+  bool line_search(const VecX& d) {
+    const double slope = free_gradient_.dot(d);
+    if (!(slope < 0)) return false;
     const double noise = kRoundingSlack * std::max(std::abs(result_.energy), energy_scale_);
-    const double before = result_.residual;
-    decreased_ = false;
-    double step = 1;
-    for (int i = 0; i < kMaxBacktracks; ++i, step *= 0.5) {
-      const VecX trial = result_.x + step * direction;
-      const double energy = potential_.energy(trial);
-      if (!std::isfinite(energy)) continue;
-      const bool below_noise = std::abs(step * slope) < noise;
-      if (!below_noise && energy > result_.energy + kArmijo * step * slope) continue;
-      const VecX gradient = potential_.gradient(trial);
-      const double residual = potential_.residual(gradient);
-      if (below_noise && residual >= before) {
-        if (step < 1.0 / 8) return false;
+    const VecX full = discretization_.to_full(d);
+    int backtracks = 0;
+    for (double step = 1; step > kShortestStep; ++backtracks) {
+      trial_ = result_.x + step * full;
+      const double energy = potential_.energy_and_gradient(trial_, trial_gradient_);
+      const double residual = potential_.residual(trial_gradient_);
+      if (!std::isfinite(energy) || !std::isfinite(residual)) {
+        step /= 4;
         continue;
       }
-      decreased_ = residual < before || !below_noise;
-      result_.x = trial;
-      result_.energy = energy;
-      gradient_ = gradient;
-      result_.residual = residual;
-      blend_ = blend_ / 2 < kFirstBlend / 2 ? 0 : blend_ / 2;
-      return true;
+      const bool below_noise = -step * slope < noise;
+      if (below_noise ? residual < 2 * result_.residual
+                      : energy <= result_.energy + kArmijo * step * slope) {
+        hard_searches_ += backtracks >= 2;
+        memory_.push(step * d, discretization_.to_free(trial_gradient_) - free_gradient_);
+        accept(energy, residual, below_noise);
+        return true;
+      }
+      if (below_noise && backtracks > 3) return false;
+      // the minimum of the parabola through energy, slope and the energy tried
+      const double parabola =
+          -slope * step * step / (2 * (energy - result_.energy - slope * step));
+      step = std::clamp(parabola, step / 10, step / 2);
     }
     return false;
   }
 
-  /// Whether a stopped iteration is as good as rounding allows.
+  void accept(double energy, double residual, bool below_noise) {
+    result_.x.swap(trial_);
+    gradient_.swap(trial_gradient_);
+    result_.energy = energy;
+    result_.residual = residual;
+    if (!below_noise || residual < 0.9 * best_residual_) {
+      noisy_steps_ = 0;
+      best_residual_ = residual;
+      if (below_noise) best_x_ = result_.x;
+    } else {
+      ++noisy_steps_;
+    }
+  }
+
+  void take_back_to_best() {
+    if (best_residual_ >= result_.residual) return;
+    result_.x = best_x_;
+    evaluate();
+  }
+
+  /// Whether nothing helps: no step with a projected Hessian of this very state, or none of the
+  /// last refreshes has lowered energy or residual.
+  bool stalled() {
+    if (use_ == 0 && blend_ >= 1) return true;
+    const bool better = result_.residual < 0.5 * residual_at_stall_ ||
+                        result_.energy < energy_at_stall_ - 1e-9 * std::abs(result_.energy);
+    stalls_ = better ? 0 : stalls_ + 1;
+    residual_at_stall_ = result_.residual;
+    energy_at_stall_ = result_.energy;
+    return stalls_ > kMaxStalls;
+  }
+
+  /// Whether the residual is as small as rounding allows.
   bool at_rounding_floor() {
     result_.rounding_floor = potential_.rounding_floor(result_.x);
     return result_.residual <= result_.rounding_floor;
@@ -166,13 +266,13 @@ class BlendedNewton {
   /// eigenvalues 1 - mu are largest for negative mu because H <= P.
   std::optional<VecX> negative_curvature_direction() {
     const SparseMatrix H = hessian_;
-    potential_.hessian(result_.x, 1, hessian_);
-    ++result_.factorizations;
-    if (!factor_->factorize(hessian_)) return std::nullopt;
+    if (!factor(1)) return std::nullopt;
     VecX v(H.rows());
     for (Eigen::Index i = 0; i < v.size(); ++i) v[i] = std::sin(1.0 + static_cast<double>(i));
     for (int i = 0; i < kCurvatureIterations; ++i) {
-      v -= factor_->solve(H.selfadjointView<Eigen::Lower>() * v);
+      VecX w = H.selfadjointView<Eigen::Lower>() * v;
+      preconditioner_->solve_in_place(w);
+      v -= w;
       v.normalize();
     }
     if (v.dot(H.selfadjointView<Eigen::Lower>() * v) >= 0) return std::nullopt;
@@ -182,29 +282,41 @@ class BlendedNewton {
   bool leave_saddle() {
     const std::optional<VecX> v = negative_curvature_direction();
     if (!v) return false;
-    VecX direction = potential_.discretization().to_full(*v);
-    direction *= kSaddleStep / largest_move(direction);
+    const VecX direction = discretization_.to_full(*v) * (kSaddleStep / largest_move(*v));
     for (double step = 1; step > 1e-4; step *= 0.5)
       for (double sign : {1.0, -1.0}) {
         const VecX trial = result_.x + sign * step * direction;
         if (!(potential_.energy(trial) < result_.energy)) continue;
         result_.x = trial;
         evaluate();
-        blend_ = kFirstBlend;
+        factor_is_old_ = true;
         return true;
       }
     return false;
   }
 
   const Potential& potential_;
+  const Discretization& discretization_;
   EquilibriumOptions options_;
   Equilibrium result_;
-  std::shared_ptr<SparseFactor> factor_;
   SparseMatrix hessian_;
-  VecX gradient_;
-  double blend_ = 0;
-  double energy_scale_;     // [J]
-  bool decreased_ = false;  // whether the last step lowered energy or residual
+  std::shared_ptr<SparseFactor> own_factor_;
+  std::shared_ptr<const SparseFactor> preconditioner_;  // own_factor_ or one of a near-by solve
+  bool started_near_;
+  LimitedMemory memory_;
+  VecX gradient_, free_gradient_, trial_, trial_gradient_, best_x_;
+  double energy_scale_;         // [J]
+  double blend_ = 0;            // of the preconditioner
+  double near_blend_ = 0;       // to be tried next near equilibrium
+  bool factor_is_old_ = false;  // it is to be refreshed before the next step
+  int use_ = 0;                 // iterations with this preconditioner
+  int hard_searches_ = 0;       // of these, those that needed several backtracks
+  double residual_at_refresh_ = std::numeric_limits<double>::infinity();
+  double residual_at_stall_ = std::numeric_limits<double>::infinity();
+  double energy_at_stall_ = std::numeric_limits<double>::infinity();  // [J]
+  int stalls_ = 0;
+  double best_residual_ = std::numeric_limits<double>::infinity();
+  int noisy_steps_ = 0;  // since the residual last fell, while the energy says nothing
 };
 
 }  // namespace
@@ -226,8 +338,9 @@ std::string_view name(EquilibriumStatus status) {
 }
 
 Equilibrium solve_equilibrium(const Potential& potential, const VecX& x,
-                              const EquilibriumOptions& options) {
-  return BlendedNewton(potential, x, options).run();
+                              const EquilibriumOptions& options,
+                              std::shared_ptr<const SparseFactor> nearby) {
+  return Minimisation(potential, x, options, std::move(nearby)).run();
 }
 
 double smallest_eigenvalue(const Equilibrium& equilibrium) {

@@ -1,11 +1,12 @@
-// Static equilibrium: a stable minimum of the total potential, by a blended Newton method.
+// Static equilibrium: a stable minimum of the total potential.
 //
-// Newton's matrix is H(a): the Hessian with its negative geometric parts scaled by 1 - a. Each
-// iteration tries a as small as the last ones allow and raises it only where the Cholesky
-// factorisation fails, so that the method is Newton's own near a minimum. A state counts as
-// converged when its residual is at most the tolerance (or the rounding floor, whichever is larger)
-// and the true Hessian has a Cholesky factor: the certificate that it is a minimum. At a saddle the
-// solver leaves along a direction of negative curvature.
+// L-BFGS whose initial matrix is a Cholesky factor of the blended Hessian H(a), that is the Hessian
+// with its negative geometric parts scaled by 1 - a. The factor is refreshed rarely: it costs as
+// much as fifteen iterations. Far from equilibrium a = 1, which always has a factor; near it a is
+// as small as the factorisation allows, so that the end is Newton's own. A state counts as converged
+// when its residual is at most the tolerance (or the rounding floor, whichever is larger) and the
+// true Hessian has a Cholesky factor: the certificate that it is a minimum. At a saddle the solver
+// leaves along a direction of negative curvature.
 #pragma once
 
 #include <memory>
@@ -19,7 +20,7 @@ namespace drape {
 
 struct EquilibriumOptions {
   double tolerance = 1e-8;     ///< on the relative residual (see Potential::residual)
-  int max_iterations = 5000;   ///< Newton iterations, over all saddles
+  int max_iterations = 20000;  ///< over all saddles
   double largest_move = 0.02;  ///< of a vertex in one iteration [m]
   bool certify = true;         ///< factor the true Hessian at the end and leave saddles
 };
@@ -39,7 +40,7 @@ struct Equilibrium {
   double residual = 0;        ///< largest nodal force over largest nodal weight
   double rounding_floor = 0;  ///< of that residual, measured at x (0 if not needed)
   double energy = 0;          ///< [J]
-  int newton_iterations = 0;
+  int newton_iterations = 0;  ///< preconditioned L-BFGS iterations
   int factorizations = 0;
   int negative_eigenvalues = 0;  ///< of the true Hessian at x: 0 certified; -1 not known
   double cpu_seconds = 0;        ///< of this thread
@@ -47,14 +48,19 @@ struct Equilibrium {
   /// Factor of the true Hessian at x; null unless converged and certified. Not for two threads at
   /// a time.
   std::shared_ptr<const SparseFactor> factor;
+  /// The last factor there was, to start a solve near by; `factor` where that is not null.
+  std::shared_ptr<const SparseFactor> preconditioner;
 
   bool converged() const { return status == EquilibriumStatus::converged; }
 };
 
-/// Minimises the potential from x (3n); fixed vertices stay where they are. Never throws on
-/// numerical failure: see status.
+/// Minimises the potential from x (3n); fixed vertices stay where they are. `nearby`: the
+/// preconditioner of a solve on this mesh that ended near x, if there is one; a re-solve after a
+/// small change then needs no factorisation but the last. Never throws on numerical failure: see
+/// status.
 Equilibrium solve_equilibrium(const Potential& potential, const VecX& x,
-                              const EquilibriumOptions& options = {});
+                              const EquilibriumOptions& options = {},
+                              std::shared_ptr<const SparseFactor> nearby = nullptr);
 
 /// Smallest eigenvalue of the true Hessian at a converged equilibrium [N/m].
 double smallest_eigenvalue(const Equilibrium& equilibrium);
