@@ -26,5 +26,6 @@ RunOutcome run_photograph(const Settings& settings, OutputFolder& folder);
 RunOutcome run_gradient_check(const Settings& settings, OutputFolder& folder);
 RunOutcome run_robustness(const Settings& settings, OutputFolder& folder);
 RunOutcome run_quickstart(const Settings& settings, OutputFolder& folder);
+RunOutcome run_branches(const Settings& settings, OutputFolder& folder);
 
 }  // namespace drape

@@ -16,6 +16,7 @@
 #include "experiments/config_text.h"
 #include "experiments/interrupt.h"
 #include "experiments/kinds.h"
+#include "experiments/start_outline.h"
 #include "experiments/summary.h"
 
 namespace drape {
@@ -39,6 +40,8 @@ RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
       return run_robustness(settings, folder);
     case Kind::quickstart:
       return run_quickstart(settings, folder);
+    case Kind::branches:
+      return run_branches(settings, folder);
   }
   throw std::logic_error("a kind of experiment without a function");
 }
@@ -55,6 +58,7 @@ void print_content(const OutputFolder& folder) {
 /// Reads the input files of a run before anything is written: throws what the run itself would.
 void check_inputs(const Settings& settings) {
   const Kind kind = settings.experiment.kind;
+  if (settings.start.protocol == StartProtocol::guided) start_profile(settings);
   if (kind == Kind::photograph)
     read_photograph(settings.photograph.file, 1e-3 * settings.photograph.mm_per_pixel,
                     settings.scene);

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/ensemble.h"
 #include "core/fabric.h"
 #include "core/scene.h"
 #include "core/sparse_factor.h"
@@ -18,7 +19,16 @@
 
 namespace drape {
 
-enum class Kind { drape, dataset, estimate, photograph, gradient_check, robustness, quickstart };
+enum class Kind {
+  drape,
+  dataset,
+  estimate,
+  photograph,
+  gradient_check,
+  robustness,
+  quickstart,
+  branches
+};
 
 struct Experiment {
   Kind kind = Kind::drape;
@@ -48,13 +58,28 @@ struct SolverSettings {
   FactorBackend factorization = default_factor_backend();
 };
 
-enum class StartProtocol { ramp, lobes };
+enum class StartProtocol { ramp, lobes, lowering, guided, ensemble };
 
 struct StartSettings {
   StartProtocol protocol = StartProtocol::ramp;
   int lobes = 6;
-  double phase = 0;        ///< direction of the first lobe from +x [rad]
-  std::uint64_t seed = 1;  ///< of the ramp's noise
+  double phase = 0;               ///< direction of the first lobe from +x [rad]
+  std::uint64_t seed = 1;         ///< of the noise of ramp, lowering and ensemble
+  double plate_step = 2e-3;       ///< of lowering [m]
+  std::filesystem::path outline;  ///< of guided: CSV x,y [m]; empty: none
+  std::filesystem::path dataset;  ///< of guided: a results.h5; empty: none
+  int record = 0;                 ///< of that dataset
+  std::vector<double> guide{1, 0.1, 0.01};
+  int guide_harmonics = 24;
+  EnsembleOptions ensemble;  ///< its seed is `seed`
+};
+
+/// Sweeps of the bending stiffness, each from another start at the softest fabric.
+struct BranchesSettings {
+  double softest = 0.1, stiffest = 10;  ///< factors on the fabric's bending stiffnesses
+  bool ramp = true;                     ///< a branch from the gravity ramp
+  std::vector<int> lobes{3, 5, 7};      ///< and one from each of these folded starts
+  double largest_step = 0.05;           ///< of the logarithm
 };
 
 /// How the first drape of a fit is found.
@@ -136,6 +161,7 @@ struct Settings {
   GradientCheckSettings gradient_check;
   RobustnessSettings robustness;
   QuickstartSettings quickstart;
+  BranchesSettings branches;
 };
 
 }  // namespace drape

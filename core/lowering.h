@@ -1,0 +1,28 @@
+// Drape by lowering a plate, as the instrument does it: the specimen lies flat on the support and
+// on a plate around it; the plate sinks until nothing touches it any more.
+//
+// The state follows the plate as an equilibrium at every height. A step is predicted from the last
+// ones; where the state leaves its prediction the step is halved, down to 1/64 of the largest one,
+// so that a buckling or a snap happens at the height where it belongs, whatever the step. What is
+// left of the dependence on the step: which way a snap falls. Without friction.
+#pragma once
+
+#include <cstdint>
+
+#include "core/equilibrium.h"
+#include "core/potential.h"
+
+namespace drape {
+
+struct LoweringOptions {
+  double largest_step = 2e-3;  ///< of the plate [m]
+  std::uint64_t seed = 1;      ///< of the noise of 1e-6 m on the flat start
+};
+
+/// The potential is copied, its guide and plate ignored. result.protocol: "lowering". Counts and
+/// times are those of the whole way; a failure on the way is the status of the result. Throws
+/// std::invalid_argument unless largest_step > 0.
+Equilibrium drape_by_lowering(const Potential& potential, const LoweringOptions& lowering = {},
+                              const EquilibriumOptions& options = {});
+
+}  // namespace drape
