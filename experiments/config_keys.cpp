@@ -185,7 +185,7 @@ std::vector<ConfigKey> make_keys() {
       MEMBER(start.guide_harmonics));
   add("start", "ramps", "", kNotNegative, "ensemble: gravity ramps, each with other noise.",
       MEMBER(start.ensemble.ramps));
-  add("start", "fewest_lobes", "", {1, 60, true}, "ensemble: folded starts from this many lobes",
+  add("start", "fewest_lobes", "", {1, 60, true}, "ensemble: folded starts from this many lobes.",
       MEMBER(start.ensemble.fewest_lobes));
   add("start", "most_lobes", "", {1, 60, true}, "ensemble: up to this many.",
       MEMBER(start.ensemble.most_lobes));
@@ -304,6 +304,18 @@ std::vector<ConfigKey> make_keys() {
       MEMBER(quickstart.mm_per_pixel));
   add("quickstart", "areal_density", "kg/m^2", kNotNegative,
       "Mass per area of the fabric in the photograph.", MEMBER(quickstart.areal_density));
+
+  add("branches", "softest", "", kPositive,
+      "Factor on the fabric's bending stiffnesses where the sweeps start and end.",
+      MEMBER(branches.softest));
+  add("branches", "stiffest", "", kPositive, "Factor where they turn back; more than softest.",
+      MEMBER(branches.stiffest));
+  add("branches", "ramp", "", kAny, "Follow the branch that the gravity ramp finds.",
+      MEMBER(branches.ramp));
+  add("branches", "lobes", "", {1, 60, true},
+      "Follow the branches that starts folded into these many lobes find.", MEMBER(branches.lobes));
+  add("branches", "largest_step", "", {0, 1, false},
+      "Of the logarithm of the stiffness, in one step.", MEMBER(branches.largest_step));
   return keys;
 }
 
