@@ -2,9 +2,12 @@
 // on a plate around it; the plate sinks until nothing touches it any more.
 //
 // The state follows the plate as an equilibrium at every height. A step is predicted from the last
-// ones; where the state leaves its prediction the step is halved, down to 1/64 of the largest one,
-// so that a buckling or a snap happens at the height where it belongs, whatever the step. What is
-// left of the dependence on the step: which way a snap falls. Without friction.
+// one; where the state leaves its prediction by more than a wrinkle the step is halved, down to 1/64
+// of the largest one, so that a snap happens at the height where it belongs. Measured on 600
+// vertices with largest steps of 1, 2 and 4 mm: at k_b = 1e-5 N m one and the same drape; at 2.5e-6
+// three drapes (drape coefficient 55.0 to 55.8, energy within 0.9 %); at 7.5e-7 three (72 to 78),
+// 40 to 46 % above the gravity ramp in energy: on a plate without friction, and without
+// self-contact, a soft cloth tucks into pleats that it cannot leave again.
 #pragma once
 
 #include <cstdint>

@@ -301,19 +301,13 @@ void check_together(const Loaded& loaded, const std::string& name) {
       settings.start.outline.empty() == settings.start.dataset.empty())
     refuse("start.protocol",
            "a guided start needs either start.outline or start.dataset, and not both");
-  if (settings.start.protocol == StartProtocol::guided && settings.start.guide.empty())
-    refuse("start.guide", "a guided start needs at least one strength in start.guide");
   if (settings.start.protocol == StartProtocol::ensemble) try {
       ensemble_starts(settings.start.ensemble);
     } catch (const std::invalid_argument& error) {
       refuse("start.protocol", error.what());
     }
-  if (kind == Kind::branches) {
-    if (!(settings.branches.softest < settings.branches.stiffest))
-      refuse("branches.softest", "branches.softest must be less than branches.stiffest");
-    if (!settings.branches.ramp && settings.branches.lobes.empty())
-      refuse("branches.lobes", "branches has no start: set branches.ramp or branches.lobes");
-  }
+  if (kind == Kind::branches && !(settings.branches.softest < settings.branches.stiffest))
+    refuse("branches.softest", "branches.softest must be less than branches.stiffest");
   const bool only_forward =
       kind == Kind::drape || kind == Kind::dataset || kind == Kind::robustness;
   if (settings.reading.law == BendingLaw::secant && !only_forward)

@@ -27,7 +27,8 @@ Points2 read_polygon(const std::filesystem::path& file) {
     std::istringstream text(line);
     Vec2 corner;
     char comma = 0;
-    if (!(text >> corner.x() >> comma >> corner.y() >> std::ws) || comma != ',' || !text.eof())
+    std::string rest;
+    if (!(text >> corner.x() >> comma >> corner.y()) || comma != ',' || text >> rest)
       refuse(row, "must be two numbers, as 0.12,-0.03");
     corners.push_back(corner);
   }

@@ -82,7 +82,7 @@ def draw_branch(axes, branch, colour):
             if point["node_count"] != nodes and sweep == "up":
                 nodes = point["node_count"]
                 axes.annotate(str(nodes), (point["factor"], point["drape_coefficient_percent"]),
-                              xytext=(-1.5, 2.5), textcoords="offset points", fontsize=5,
+                              xytext=(-1.5, 2.5), textcoords="offset points", fontsize=6,
                               color=colour, ha="right")
 
 

@@ -58,7 +58,7 @@ TEST(Ensemble, TurnedAndMirroredShapesAreTwins) {
 TEST(Ensemble, FindsWhatItsStartsFind) {
   const Potential potential(disc(250), stiff_fabric(), {}, kCusick.gravity);
   const EnsembleOptions options{
-      .ramps = 1, .fewest_lobes = 3, .most_lobes = 5, .phases = 1, .flats = 1};
+      .ramps = 0, .fewest_lobes = 3, .most_lobes = 4, .phases = 1, .flats = 1};
   std::vector<VecX> states;
   std::vector<double> energies;
   for (const EnsembleStart& start : ensemble_starts(options)) {

@@ -40,7 +40,7 @@ TEST(Start, WhatDoesNotFitTogetherIsRefused) {
                  "no start is left");
   expect_refused("branches", {"branches.softest=3", "branches.stiffest=3"},
                  "must be less than branches.stiffest");
-  expect_refused("branches", {"branches.ramp=false", "branches.lobes=[]"}, "has no start");
+  expect_refused("branches", {"branches.lobes=[]"}, "branches.lobes is empty");
   expect_refused("branches", {"branches.largest_step=0"}, "branches.largest_step");
   EXPECT_EQ(settings_of("branches", {"branches.lobes=[5]"}).branches.lobes, std::vector<int>{5});
 }
