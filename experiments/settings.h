@@ -76,10 +76,10 @@ struct StartSettings {
 
 /// Sweeps of the bending stiffness, each from another start at the softest fabric.
 struct BranchesSettings {
-  double softest = 0.1, stiffest = 10;  ///< factors on the fabric's bending stiffnesses
-  bool ramp = true;                     ///< a branch from the gravity ramp
-  std::vector<int> lobes{3, 5, 7};      ///< and one from each of these folded starts
-  double largest_step = 0.05;           ///< of the logarithm
+  double softest = 1, stiffest = 10;  ///< factors on the fabric's bending stiffnesses
+  bool ramp = true;                   ///< a branch from the gravity ramp
+  std::vector<int> lobes{4, 7};       ///< and one from each of these folded starts
+  double largest_step = 0.05;         ///< of the logarithm
 };
 
 /// How the first drape of a fit is found.
