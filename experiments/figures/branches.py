@@ -57,8 +57,8 @@ def diagram(results, summary):
     snaps = summary["snaps"]
     large = sum(abs(snap["drape_coefficient_percent_jump"]) >= LARGE for snap in snaps)
     page.text(PLOT[0], HEIGHT - 5,
-              f"{len(snaps)} snaps, {large} of them by {LARGE:g} points of drape coefficient or more. "
-              "Small numbers: nodes. Insets: outline and support, weft to the right. "
+              f"{len(snaps)} snaps, {large} of them by {LARGE:g} points or more. Small numbers: "
+              "nodes. Insets: outlines, weft to the right. "
               f"Drape, commit {results.git_commit[:12]}", fontsize=6, color="#666666")
     return page
 
@@ -119,6 +119,7 @@ def insets(page, axes, results, branches):
         chosen.append((up[int((i + 0.4) / INSETS * (len(up) - 1))], COLOURS[i % len(branches)]))
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + 0.24 * (high - low))
+    axes.set_yticks([tick for tick in axes.get_yticks() if low <= tick <= min(high, 100)])
     chosen.sort(key=lambda item: item[0]["factor"])
     for i, (point, colour) in enumerate(chosen):
         left = PLOT[0] + 2 + i * (PLOT[2] - INSET - 4) / (INSETS - 1)
