@@ -87,6 +87,7 @@ double Potential::energy(const VecX& x) const {
       membrane_energy(discretization_->triangle_batches(), membrane_stiffness(fabric_), positions) +
       bending_energy(wings(), positions) + weight_.dot(x);
   if (guide_) energy += guide_energy(x);
+  if (plate_) energy += plate_energy(x);
   return energy;
 }
 
@@ -106,6 +107,10 @@ double Potential::energy_and_gradient(const VecX& x, VecX& gradient) const {
   if (guide_) {
     energy += guide_energy(x);
     gradient += guide_gradient(x);
+  }
+  if (plate_) {
+    energy += plate_energy(x);
+    gradient += plate_gradient(x);
   }
   return energy;
 }
@@ -135,6 +140,20 @@ VecX Potential::guide_gradient(const VecX& x) const {
   return g;
 }
 
+double Potential::plate_energy(const VecX& x) const {
+  double sum = 0;
+  for (int v : discretization_->free_vertices())
+    sum += weight_[3 * v + 2] * plate_push(*plate_, x[3 * v + 2]).energy;
+  return sum;
+}
+
+VecX Potential::plate_gradient(const VecX& x) const {
+  VecX g = VecX::Zero(x.size());
+  for (int v : discretization_->free_vertices())
+    g[3 * v + 2] = weight_[3 * v + 2] * plate_push(*plate_, x[3 * v + 2]).slope;
+  return g;
+}
+
 void Potential::hessian(const VecX& x, double blend, SparseMatrix& H) const {
   const PaddedState& positions = padded(x);
   discretization_->reset_hessian(H);
@@ -142,6 +161,10 @@ void Potential::hessian(const VecX& x, double blend, SparseMatrix& H) const {
                        membrane_stiffness(fabric_), positions, blend, H.valuePtr());
   add_bending_hessian(wings(), discretization_->wing_places(), positions, blend, H.valuePtr());
   if (guide_) add_guide_hessian(x, blend, H);
+  if (plate_)
+    for (int v : discretization_->free_vertices())
+      H.valuePtr()[discretization_->diagonal_entry(v, 2, 2)] +=
+          weight_[3 * v + 2] * plate_push(*plate_, x[3 * v + 2]).curvature;
 }
 
 void Potential::add_guide_hessian(const VecX& x, double blend, SparseMatrix& H) const {
@@ -164,9 +187,11 @@ MatX Potential::gradient_dfabric(const VecX& x) const {
   const auto is_free = [&](int v) { return mesh().fixed[static_cast<size_t>(v)] == 0; };
   for (int v : discretization_->free_vertices())
     dg(3 * v + 2, static_cast<int>(Parameter::areal_density)) = gravity_ * mesh().nodal_area[v];
-  // the guide is as strong as the cloth is heavy
+  // guide and plate are as strong as the cloth is heavy
   if (guide_)
     dg.col(static_cast<int>(Parameter::areal_density)) += guide_gradient(x) / fabric_.areal_density;
+  if (plate_)
+    dg.col(static_cast<int>(Parameter::areal_density)) += plate_gradient(x) / fabric_.areal_density;
   for (int t : discretization_->active_triangles()) {
     const Eigen::Matrix<double, 9, 3> element =
         membrane_gradient_dstiffness(mesh().rest[static_cast<size_t>(t)], triangle_corners(t, x));
@@ -194,6 +219,9 @@ ParameterVector Potential::gradient_dfabric_transposed(const VecX& x, const VecX
   if (guide_)
     sum[static_cast<int>(Parameter::areal_density)] +=
         lambda.dot(guide_gradient(x)) / fabric_.areal_density;
+  if (plate_)
+    sum[static_cast<int>(Parameter::areal_density)] +=
+        lambda.dot(plate_gradient(x)) / fabric_.areal_density;
   for (int t : discretization_->active_triangles()) {
     Vec9 at_corners;
     for (int k = 0; k < 3; ++k)

@@ -1,7 +1,7 @@
 // Total potential energy of a hanging cloth and its derivatives.
 //
 //   E(x) = sum over triangles (Eqs. 1, 2) + sum over wings (Eqs. 3 to 11)
-//          + areal_density g sum_i A_i z_i  [+ a guide, see guide.h]
+//          + areal_density g sum_i A_i z_i  [+ a guide, see guide.h]  [+ a plate, see plate.h]
 //
 // with A_i the nodal areas. Fixed vertices have no unknowns: their rows of a gradient are zero.
 // Evaluations are serial, several elements at a time (lanes.h): drapes are parallel over fabrics,
@@ -19,6 +19,7 @@
 #include "core/fabric.h"
 #include "core/guide.h"
 #include "core/membrane.h"
+#include "core/plate.h"
 #include "core/types.h"
 
 namespace drape {
@@ -40,6 +41,8 @@ class Potential {
   void set_gravity(double gravity);
   void set_guide(std::optional<Guide> guide) { guide_ = std::move(guide); }
   const std::optional<Guide>& guide() const { return guide_; }
+  void set_plate(const std::optional<Plate>& plate) { plate_ = plate; }
+  const std::optional<Plate>& plate() const { return plate_; }
 
   /// x: 3n. Energy [J]; not finite for a collapsed triangle.
   double energy(const VecX& x) const;
@@ -85,6 +88,8 @@ class Potential {
   void add_guide_hessian(const VecX& x, double blend, SparseMatrix& H) const;
   double guide_stiffness() const;
   VecX guide_gradient(const VecX& x) const;
+  double plate_energy(const VecX& x) const;
+  VecX plate_gradient(const VecX& x) const;
 
   std::shared_ptr<const Discretization> discretization_;
   Fabric fabric_;
@@ -94,6 +99,7 @@ class Potential {
   std::vector<WingLawBatch> law_batches_;  // the same for the batches
   VecX weight_;                            // gradient of the gravity term (3n) [N]
   std::optional<Guide> guide_;
+  std::optional<Plate> plate_;
   Rim rim_;
 };
 

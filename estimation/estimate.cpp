@@ -7,14 +7,15 @@
 #include <utility>
 
 #include "core/cpu_clock.h"
-#include "core/drape_protocol.h"
+#include "core/guided.h"
 
 namespace drape {
 namespace {
 
 constexpr double kLargestCentre = 10;     // the unknowns of the centre are bounded to +-10 mm
 constexpr double kStageTolerance = 1e-3;  // relative cost change that ends a guided fit
-constexpr double kFinalTolerance = 1e-6;  // and the last one, far below what noise leaves of the cost
+constexpr double kFinalTolerance =
+    1e-6;  // and the last one, far below what noise leaves of the cost
 
 /// One estimation from start to end; each method is one stage.
 class Estimation {
@@ -71,11 +72,8 @@ class Estimation {
   bool guided_start() {
     const double kappa = options_.guide.empty() ? 1 : options_.guide.front();
     result_.kappa = kappa;
-    const Guide guide = guide_of(kappa);
-    potential_.set_guide(guide);
-    result_.equilibrium = solve_equilibrium(
-        potential_, state_from_outline(potential_.mesh(), scene_, guide), options_.equilibrium);
-    result_.equilibrium.protocol = "guided";
+    result_.equilibrium =
+        solve_under_guide(potential_, scene_, guide_of(kappa), options_.equilibrium);
     ++result_.forward_solves;
     return result_.equilibrium.converged();
   }

@@ -1,4 +1,5 @@
 // kind = "drape": one fabric, one drape, everything that is known about it.
+#include "experiments/ensemble_run.h"
 #include "experiments/factorization_unit.h"
 #include "experiments/kinds.h"
 #include "experiments/model.h"
@@ -47,6 +48,7 @@ RunOutcome drape_once(const Settings& settings, OutputFolder& folder) {
 }  // namespace
 
 RunOutcome run_drape(const Settings& settings, OutputFolder& folder) {
+  if (settings.start.protocol == StartProtocol::ensemble) return drape_ensemble(settings, folder);
   // One thread: the factorisation, nearly all of the work, gains nothing from a second one, and
   // waiting threads would count as CPU of the drape.
   RunOutcome outcome;

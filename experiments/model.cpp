@@ -6,10 +6,13 @@
 
 #include "core/disc_mesh.h"
 #include "core/drape_protocol.h"
+#include "core/guided.h"
+#include "core/lowering.h"
 #include "core/outline.h"
 #include "core/profile.h"
 #include "core/version.h"
 #include "experiments/config_text.h"
+#include "experiments/start_outline.h"
 
 namespace drape {
 namespace {
@@ -53,8 +56,23 @@ Equilibrium drape(const Settings& settings, const Potential& potential) {
       return drape_by_ramp(potential, start.seed, options);
     case StartProtocol::lobes:
       return drape_by_lobes(potential, settings.scene, start.lobes, start.phase, options);
+    case StartProtocol::lowering:
+      return drape_by_lowering(potential, {.largest_step = start.plate_step, .seed = start.seed},
+                               options);
+    case StartProtocol::guided:
+      return drape_guided(potential, settings.scene,
+                          {.radius = harmonics(start_profile(settings), start.guide_harmonics)},
+                          start.guide, options);
+    case StartProtocol::ensemble:
+      return lowest_of_ensemble(potential, settings.scene, ensemble_options(settings), options);
   }
   throw std::logic_error("a start protocol without a function");
+}
+
+EnsembleOptions ensemble_options(const Settings& settings) {
+  EnsembleOptions options = settings.start.ensemble;
+  options.seed = settings.start.seed;
+  return options;
 }
 
 PixelGrid observation_grid(const Settings& settings) {

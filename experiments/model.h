@@ -28,6 +28,8 @@ EquilibriumOptions equilibrium_options(const Settings& settings);
 /// The drape by the start protocol of the settings.
 Equilibrium drape(const Settings& settings, const Potential& potential);
 
+EnsembleOptions ensemble_options(const Settings& settings);
+
 /// The grid of coverage images.
 PixelGrid observation_grid(const Settings& settings);
 
