@@ -89,6 +89,9 @@ double Potential::energy(const VecX& x) const {
     }
     sum += 0.5 * guide_stiffness() * misses;
   }
+  if (support_)
+    for (int v : discretization_->free_vertices())
+      sum += support_energy(*support_, support_weight(v), position(x, v));
   return sum;
 }
 
@@ -119,6 +122,7 @@ VecX Potential::gradient(const VecX& x) const {
     g[3 * v + 2] = fabric_.areal_density * gravity_ * mesh().nodal_area[v];
   discretization_->gather_gradient(corners, g);
   if (guide_) g += guide_gradient(x);
+  if (support_) g -= contact_force(x);
   return g;
 }
 
@@ -170,6 +174,7 @@ void Potential::hessian(const VecX& x, double blend, SparseMatrix& H) const {
   H = discretization_->hessian_pattern();
   discretization_->gather_hessian(blocks, H);
   if (guide_) add_guide_hessian(x, blend, H);
+  if (support_) add_support_hessian(x, blend, H);
 }
 
 void Potential::add_guide_hessian(const VecX& x, double blend, SparseMatrix& H) const {
@@ -185,6 +190,29 @@ void Potential::add_guide_hessian(const VecX& x, double blend, SparseMatrix& H) 
   }
 }
 
+double Potential::support_weight(int vertex) const {
+  return fabric_.areal_density * gravity_ * support_->overhang *
+         std::sqrt(mesh().nodal_area[vertex]);
+}
+
+VecX Potential::contact_force(const VecX& x) const {
+  VecX force = VecX::Zero(x.size());
+  if (!support_) return force;
+  for (int v : discretization_->free_vertices())
+    force.segment<3>(3 * v) = -support_gradient(*support_, support_weight(v), position(x, v));
+  return force;
+}
+
+void Potential::add_support_hessian(const VecX& x, double blend, SparseMatrix& H) const {
+  for (int v : discretization_->free_vertices()) {
+    if (support_penetration(*support_, position(x, v)) == 0) continue;
+    const Mat3 block = support_hessian(*support_, support_weight(v), position(x, v), blend);
+    for (int c = 0; c < 3; ++c)
+      for (int r = c; r < 3; ++r)
+        H.valuePtr()[discretization_->diagonal_entry(v, r, c)] += block(r, c);
+  }
+}
+
 double Potential::guide_stiffness() const { return guide_->kappa * free_weight() / kGuideUnitMiss; }
 
 MatX Potential::gradient_dfabric(const VecX& x) const {
@@ -195,6 +223,8 @@ MatX Potential::gradient_dfabric(const VecX& x) const {
   // the guide is as strong as the cloth is heavy
   if (guide_)
     dg.col(static_cast<int>(Parameter::areal_density)) += guide_gradient(x) / fabric_.areal_density;
+  if (support_)  // and so is the support
+    dg.col(static_cast<int>(Parameter::areal_density)) -= contact_force(x) / fabric_.areal_density;
   for (int t : discretization_->active_triangles()) {
     const Eigen::Matrix<double, 9, 3> element =
         membrane_gradient_dstiffness(mesh().rest[static_cast<size_t>(t)], triangle_corners(t, x));
@@ -222,6 +252,9 @@ ParameterVector Potential::gradient_dfabric_transposed(const VecX& x, const VecX
   if (guide_)
     sum[static_cast<int>(Parameter::areal_density)] +=
         lambda.dot(guide_gradient(x)) / fabric_.areal_density;
+  if (support_)
+    sum[static_cast<int>(Parameter::areal_density)] -=
+        lambda.dot(contact_force(x)) / fabric_.areal_density;
   for (int t : discretization_->active_triangles()) {
     Vec9 at_corners;
     for (int k = 0; k < 3; ++k)

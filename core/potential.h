@@ -1,7 +1,7 @@
 // Total potential energy of a hanging cloth and its derivatives.
 //
 //   E(x) = sum over triangles (Eqs. 1, 2) + sum over wings (Eqs. 3 to 11)
-//          + areal_density g sum_i A_i z_i  [+ a guide, see guide.h]
+//          + areal_density g sum_i A_i z_i  [+ a guide, guide.h] [+ contact, support_contact.h]
 //
 // with A_i the nodal areas. Fixed vertices have no unknowns: their rows of a gradient are zero.
 // Evaluations are parallel over elements and give the same bits for any number of threads.
@@ -16,6 +16,7 @@
 #include "core/fabric.h"
 #include "core/guide.h"
 #include "core/membrane.h"
+#include "core/support_contact.h"
 #include "core/types.h"
 
 namespace drape {
@@ -37,12 +38,17 @@ class Potential {
   void set_gravity(double gravity);
   void set_guide(std::optional<Guide> guide) { guide_ = std::move(guide); }
   const std::optional<Guide>& guide() const { return guide_; }
+  void set_support(std::optional<SupportContact> support) { support_ = support; }
+  const std::optional<SupportContact>& support() const { return support_; }
 
   /// x: 3n. Energy [J]; not finite for a collapsed triangle.
   double energy(const VecX& x) const;
 
   /// dE/dx (3n) [N].
   VecX gradient(const VecX& x) const;
+
+  /// Force of the support on every vertex (3n) [N]; zero where contact is off.
+  VecX contact_force(const VecX& x) const;
 
   /// d2E/dx2 over the unknowns (free order, lower triangle) [N/m]. The negative geometric parts are
   /// scaled by 1 - blend: 0 is the true Hessian, 1 a positive semidefinite one for Newton steps
@@ -75,6 +81,8 @@ class Potential {
   void add_guide_hessian(const VecX& x, double blend, SparseMatrix& H) const;
   double guide_stiffness() const;
   VecX guide_gradient(const VecX& x) const;
+  double support_weight(int vertex) const;
+  void add_support_hessian(const VecX& x, double blend, SparseMatrix& H) const;
 
   std::shared_ptr<const Discretization> discretization_;
   Fabric fabric_;
@@ -82,6 +90,7 @@ class Potential {
   double gravity_;
   std::vector<WingLaw> laws_;  // one a wing
   std::optional<Guide> guide_;
+  std::optional<SupportContact> support_;
   Rim rim_;
 };
 
