@@ -10,8 +10,10 @@ namespace {
 
 RunOutcome drape_once(const Settings& settings, OutputFolder& folder) {
   const auto discretization = make_discretization(settings);
-  const Potential potential = make_potential(discretization, settings.fabric, settings);
-  const Equilibrium equilibrium = drape(settings, potential);
+  Potential potential = make_potential(discretization, settings.fabric, settings);
+  const ContactDrape draped = drape(settings, potential);
+  const Equilibrium& equilibrium = draped.equilibrium;
+  const Contact& contact = draped.contact;
   const double unit = factorization_unit(potential, equilibrium.x);
 
   const RecordStore store(folder.path(), records_header(settings, potential.mesh()), 1);
@@ -38,9 +40,13 @@ RunOutcome drape_once(const Settings& settings, OutputFolder& folder) {
   summary["factorization_equivalents"] = equilibrium.cpu_seconds / unit;
   summary["protocol"] = equilibrium.protocol;
   summary["wings_past_threshold"] = record.stats.wings_past_threshold;
-  summary["contact"] = "off";
-  summary["contact_checked"] = false;  // whether the cloth meets itself or the support's side
-  summary["self_intersections"] = nullptr;
+  summary["contact"] = contact.acting();
+  summary["contact_checked"] = contact.checked;
+  summary["contact_reason"] = contact.reason;
+  summary["support_penetration_mm"] =
+      contact.checked ? nlohmann::ordered_json(1e3 * contact.penetration) : nullptr;
+  summary["self_intersections"] =
+      contact.checked ? nlohmann::ordered_json(contact.self_intersections) : nullptr;
   return outcome;
 }
 

@@ -45,7 +45,9 @@ EquilibriumOptions equilibrium_options(const Settings& settings) {
   return options;
 }
 
-Equilibrium drape(const Settings& settings, const Potential& potential) {
+namespace {
+
+Equilibrium drape_without_check(const Settings& settings, const Potential& potential) {
   const StartSettings& start = settings.start;
   const EquilibriumOptions options = equilibrium_options(settings);
   switch (start.protocol) {
@@ -55,6 +57,15 @@ Equilibrium drape(const Settings& settings, const Potential& potential) {
       return drape_by_lobes(potential, settings.scene, start.lobes, start.phase, options);
   }
   throw std::logic_error("a start protocol without a function");
+}
+
+}  // namespace
+
+ContactDrape drape(const Settings& settings, Potential& potential) {
+  return drape_with_contact(
+      potential, settings.scene, settings.contact,
+      [&](const Potential& of) { return drape_without_check(settings, of); },
+      equilibrium_options(settings));
 }
 
 PixelGrid observation_grid(const Settings& settings) {
@@ -84,7 +95,8 @@ RecordsHeader records_header(const Settings& settings, const Mesh& mesh) {
   return header;
 }
 
-SolveStats solve_stats(const Potential& potential, const Equilibrium& equilibrium) {
+SolveStats solve_stats(const Potential& potential, const Scene& scene,
+                       const Equilibrium& equilibrium) {
   SolveStats stats;
   stats.status = name(equilibrium.status);
   stats.protocol = equilibrium.protocol;
@@ -96,6 +108,11 @@ SolveStats solve_stats(const Potential& potential, const Equilibrium& equilibriu
   stats.wings_past_threshold = potential.wings_past_threshold(equilibrium.x);
   stats.energy = equilibrium.energy;
   stats.cpu_seconds = equilibrium.cpu_seconds;
+  if (!equilibrium.converged()) return stats;
+  const Contact contact = check_contact(potential, scene, equilibrium.x);
+  stats.contact = contact.acting();
+  stats.self_intersections = contact.self_intersections;
+  stats.support_penetration = contact.penetration;
   return stats;
 }
 
@@ -103,13 +120,14 @@ Record make_record(const Settings& settings, const Potential& potential,
                    const Equilibrium& equilibrium) {
   if (!equilibrium.converged()) {
     Record record = failed_record(settings, potential.mesh(), potential.fabric(), "");
-    record.stats = solve_stats(potential, equilibrium);
+    record.stats = solve_stats(potential, settings.scene, equilibrium);
     return record;
   }
   Record record;
   record.fabric = potential.fabric();
   record.positions = equilibrium.x;
-  record.stats = solve_stats(potential, equilibrium);
+  if (potential.support()) record.contact_force = potential.contact_force(equilibrium.x);
+  record.stats = solve_stats(potential, settings.scene, equilibrium);
   record.observation =
       observe(settings.scene, potential.mesh(), equilibrium.x, observation_grid(settings));
   return record;

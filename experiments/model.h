@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "core/contact.h"
 #include "core/coverage.h"
 #include "core/discretization.h"
 #include "core/equilibrium.h"
@@ -25,8 +26,9 @@ Potential make_potential(std::shared_ptr<const Discretization> discretization, c
 
 EquilibriumOptions equilibrium_options(const Settings& settings);
 
-/// The drape by the start protocol of the settings.
-Equilibrium drape(const Settings& settings, const Potential& potential);
+/// The drape by the start protocol of the settings, with contact as they say: the potential ends
+/// with the support where it acts.
+ContactDrape drape(const Settings& settings, Potential& potential);
 
 /// The grid of coverage images.
 PixelGrid observation_grid(const Settings& settings);
@@ -36,7 +38,8 @@ Observation observe(const Scene& scene, const Mesh& mesh, const VecX& x, const P
 
 RecordsHeader records_header(const Settings& settings, const Mesh& mesh);
 
-SolveStats solve_stats(const Potential& potential, const Equilibrium& equilibrium);
+SolveStats solve_stats(const Potential& potential, const Scene& scene,
+                       const Equilibrium& equilibrium);
 
 /// The record of an equilibrium, converged or not; the tag is left to the caller. Throws like
 /// observe.
