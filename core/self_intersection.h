@@ -1,16 +1,17 @@
 // Self-intersections of a cloth: pairs of triangles that cross each other.
 //
-// Broad phase: sort-and-sweep of the bounding boxes along x. Narrow phase: two triangles cross if
-// and only if an edge of one passes through the other, decided by the signs of volumes of
-// tetrahedra with the error bound of Shewchuk (1997, orient3d, stage A). A sign that rounding could
-// turn counts as zero, and zero is not a crossing: two triangles that touch, or lie in one plane
-// within rounding, are not reported. So no pair is reported that does not meet, and every pair is
-// found of which an edge passes through the other triangle's plane with both ends clear of it, by
-// more than about 1e-16 m for a cloth of this size. Coplanar overlaps are not found.
+// Broad phase: sort-and-sweep of the bounding boxes along x; all in all 2 ms at 2k vertices and
+// 65 ms at 30k, little beside a drape: a grid or a tree would save nothing that counts. Narrow
+// phase: two triangles cross if and only if an edge of one passes through the other, decided by the
+// signs of volumes of tetrahedra with the error bound of Shewchuk (1997, orient3d, stage A). An
+// edge counts whose ends lie on both sides of the other's plane, each by more than rounding (about
+// 1e-16 m in a cloth of this size). So no pair is reported whose triangles lie further apart than
+// rounding, and every pair is found of which an edge passes through the other so clearly. Triangles
+// that only touch, or overlap within one plane, are not reported.
 //
 // Triangles that share one vertex meet there by right; they cross if the edge of one opposite to
 // that vertex passes through the other. Triangles that share an edge can only overlap when folded
-// flat upon each other, which the bending energy forbids: they are not tested.
+// flat upon each other: they are not tested.
 #pragma once
 
 #include <array>
