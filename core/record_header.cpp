@@ -65,6 +65,7 @@ void write_header(const hdf5::File& file, const RecordsHeader& header) {
   file.set_attribute("/", "gravity", header.scene.gravity);
   file.set_attribute("/", "specimen_radius", header.scene.specimen_radius);
   file.set_attribute("/", "support_radius", header.scene.support_radius);
+  file.set_attribute("/", "column_radius", header.scene.column_radius);
   file.set_attribute("/", "bending_law", std::string(name(header.reading.law)));
   file.set_attribute("/", "bending_threshold", std::string(name(header.reading.threshold)));
 
@@ -97,6 +98,7 @@ RecordsHeader read_header(const hdf5::File& file) {
   header.scene.gravity = file.attribute<double>("/", "gravity");
   header.scene.specimen_radius = file.attribute<double>("/", "specimen_radius");
   header.scene.support_radius = file.attribute<double>("/", "support_radius");
+  header.scene.column_radius = file.attribute<double>("/", "column_radius");
   header.reading.law = bending_law_from_name(file.attribute<std::string>("/", "bending_law"));
   header.reading.threshold =
       bending_threshold_from_name(file.attribute<std::string>("/", "bending_threshold"));

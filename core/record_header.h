@@ -13,7 +13,7 @@
 namespace drape {
 
 inline constexpr const char* kSchema = "drape-records";
-inline constexpr std::uint64_t kSchemaVersion = 1;
+inline constexpr std::uint64_t kSchemaVersion = 2;
 
 /// Throws std::invalid_argument that names what is out of range.
 void check(const RecordsHeader& header);

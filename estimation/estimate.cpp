@@ -47,6 +47,8 @@ class Estimation {
     potential_.set_guide(std::nullopt);
     if (start_state) {
       result_.equilibrium = *start_state;
+      result_.contact.support = potential_.support().has_value();
+      result_.contact.reason = "As in the state that the fit starts from.";
     } else if (!guided_start()) {
       result_.outcome = EstimateOutcome::no_start;
       return;
@@ -72,9 +74,18 @@ class Estimation {
   bool guided_start() {
     const double kappa = options_.guide.empty() ? 1 : options_.guide.front();
     result_.kappa = kappa;
-    result_.equilibrium =
-        solve_under_guide(potential_, scene_, guide_of(kappa), options_.equilibrium);
-    ++result_.forward_solves;
+    const Guide guide = guide_of(kappa);
+    potential_.set_guide(guide);
+    ContactDrape start = drape_with_contact(
+        potential_, scene_, options_.contact,
+        [&](const Potential& potential) {
+          return solve_under_guide(potential, scene_, guide, options_.equilibrium);
+        },
+        options_.equilibrium);
+    result_.equilibrium = std::move(start.equilibrium);
+    result_.contact = std::move(start.contact);
+    const bool solved_again = result_.contact.support && options_.contact == ContactMode::automatic;
+    result_.forward_solves += solved_again ? 2 : 1;
     return result_.equilibrium.converged();
   }
 
@@ -140,7 +151,17 @@ class Estimation {
     return radial_profile(outline.points, objective_.centre_of(u_)).radius;
   }
 
+  /// Looks at the last state. What acts on it was decided at the start.
+  void check_last_contact() {
+    const VecX& x = result_.equilibrium.x;
+    std::string reason = std::move(result_.contact.reason);
+    result_.contact = check_contact(potential_, scene_, x);
+    result_.contact.reason = std::move(reason);
+    result_.contact_doubtful = would_choose_otherwise(potential_, result_.contact, x);
+  }
+
   void finish() {
+    check_last_contact();
     result_.centre = objective_.centre_of(u_);
     result_.outline_rms = std::sqrt(
         (profile_of(result_.equilibrium) - observation_.profile).squaredNorm() / kProfileSize);

@@ -26,6 +26,11 @@ std::vector<std::string> names_of<StartProtocol>() {
   return {"ramp", "lobes", "lowering", "guided", "ensemble"};
 }
 template <>
+std::vector<std::string> names_of<ContactMode>() {
+  return {std::string(name(ContactMode::automatic)), std::string(name(ContactMode::off)),
+          std::string(name(ContactMode::support))};
+}
+template <>
 std::vector<std::string> names_of<FitMethod>() {
   return {"levenberg_marquardt", "bfgs"};
 }
@@ -135,6 +140,14 @@ std::vector<ConfigKey> make_keys() {
       "Radius of the disc that holds the specimen; less than specimen_radius.",
       MEMBER(scene.support_radius));
   add("scene", "gravity", "m/s^2", kPositive, "Acceleration of gravity.", MEMBER(scene.gravity));
+  add("scene", "column_radius", "m", kNotNegative,
+      "Radius of the column below that disc, at most support_radius; 0 for the same.",
+      MEMBER(scene.column_radius));
+  add("scene", "contact", "", kAny,
+      "Contact with the column: \"auto\" solves again with it where a drape would be more than 1 "
+      "mm inside, \"support\" always solves with it, \"off\" only looks. Branches are followed "
+      "without it under \"auto\".",
+      MEMBER(contact));
 
   add("mesh", "vertices", "", kVertices, "Number of vertices aimed at, fixed ring included.",
       MEMBER(mesh.vertices));

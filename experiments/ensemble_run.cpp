@@ -24,16 +24,19 @@ using Json = nlohmann::ordered_json;
 /// them.
 struct Drapes {
   std::vector<Record> records;
-  std::vector<Json> numbers;  ///< smallest eigenvalue, rounding floor, cost
+  std::vector<Json> numbers;  ///< smallest eigenvalue, rounding floor, reason of the contact
 };
 
-Json solve_start(const Settings& settings, const Potential& potential, const EnsembleStart& start,
+Json solve_start(const Settings& settings, Potential potential, const EnsembleStart& start,
                  Record& record) {
   Json numbers = Json::object();
   try {
-    const Equilibrium equilibrium =
-        drape_from(potential, settings.scene, start, equilibrium_options(settings));
+    const ContactDrape draped = drape(settings, potential, [&](const Potential& of) {
+      return drape_from(of, settings.scene, start, equilibrium_options(settings));
+    });
+    const Equilibrium& equilibrium = draped.equilibrium;
     record = make_record(settings, potential, equilibrium);
+    numbers["contact_reason"] = draped.contact.reason;
     numbers["rounding_floor"] = potential.rounding_floor(equilibrium.x);
     if (equilibrium.converged()) numbers["smallest_eigenvalue"] = smallest_eigenvalue(equilibrium);
   } catch (const std::exception& error) {
@@ -150,9 +153,7 @@ RunOutcome drape_ensemble(const Settings& settings, OutputFolder& folder) {
   for_each_item(1, 1, [&](int) { unit = factorization_unit(potential, reported.positions); });
   summary["factorization_equivalents"] = cpu / unit;
   summary["wings_past_threshold"] = reported.stats.wings_past_threshold;
-  summary["contact"] = "off";
-  summary["contact_checked"] = false;
-  summary["self_intersections"] = nullptr;
+  write_contact(summary, reported.stats, drapes.numbers[lowest]["contact_reason"]);
   summary["minima"] = minima;
 
   write_records(folder / "results.h5", records_header(settings, potential.mesh()), records);

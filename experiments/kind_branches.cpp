@@ -14,6 +14,7 @@
 #include "core/drape_protocol.h"
 #include "core/durable_file.h"
 #include "core/outline.h"
+#include "core/support_contact.h"
 #include "experiments/figure.h"
 #include "experiments/interrupt.h"
 #include "experiments/json_store.h"
@@ -42,6 +43,9 @@ class BranchRun {
         potential_(make_potential(std::move(discretization), path_.fabric(softest_), settings)),
         start_(std::move(start)),
         lobes_(lobes) {
+    // what acts does not change along a branch
+    if (settings.contact == ContactMode::support)
+      potential_.set_support(support_contact(settings.scene));
     options_.largest_step = settings.branches.largest_step;
     options_.smallest_step = settings.branches.largest_step / 32;
     options_.equilibrium = equilibrium_options(settings);
@@ -107,6 +111,8 @@ class BranchRun {
                        {"drape_coefficient_percent", 100 * record.observation.drape_coefficient},
                        {"node_count", record.observation.node_count},
                        {"energy", record.stats.energy},
+                       {"support_penetration", record.stats.support_penetration},
+                       {"self_intersections", record.stats.self_intersections},
                        {"record", records_.size()}});
     records_.push_back(std::move(record));
     kept_s_ = at.s;

@@ -11,8 +11,9 @@ namespace {
 
 RunOutcome drape_once(const Settings& settings, OutputFolder& folder) {
   const auto discretization = make_discretization(settings);
-  const Potential potential = make_potential(discretization, settings.fabric, settings);
-  const Equilibrium equilibrium = drape(settings, potential);
+  Potential potential = make_potential(discretization, settings.fabric, settings);
+  const ContactDrape draped = drape(settings, potential);
+  const Equilibrium& equilibrium = draped.equilibrium;
   const double unit = factorization_unit(potential, equilibrium.x);
 
   const RecordStore store(folder.path(), records_header(settings, potential.mesh()), 1);
@@ -39,9 +40,7 @@ RunOutcome drape_once(const Settings& settings, OutputFolder& folder) {
   summary["factorization_equivalents"] = equilibrium.cpu_seconds / unit;
   summary["protocol"] = equilibrium.protocol;
   summary["wings_past_threshold"] = record.stats.wings_past_threshold;
-  summary["contact"] = "off";
-  summary["contact_checked"] = false;  // whether the cloth meets itself or the support's side
-  summary["self_intersections"] = nullptr;
+  write_contact(summary, record.stats, draped.contact.reason);
   return outcome;
 }
 

@@ -60,8 +60,8 @@ RobustnessSolve solve(const Settings& settings,
     const Fabric fabric = random_fabric(random, distribution_of(index));
     record = failed_record(settings, discretization->mesh(), fabric, "not solved");
     solve.bending_length = bending_length(fabric, settings.scene.gravity);
-    const Potential potential = make_potential(discretization, fabric, settings);
-    const Equilibrium equilibrium = drape(settings, potential);
+    Potential potential = make_potential(discretization, fabric, settings);
+    const Equilibrium equilibrium = drape(settings, potential).equilibrium;
     record = make_record(settings, potential, equilibrium);
     solve.residual = equilibrium.residual;
     solve.rounding_floor = potential.rounding_floor(equilibrium.x);

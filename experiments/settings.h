@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/contact.h"
 #include "core/ensemble.h"
 #include "core/fabric.h"
 #include "core/scene.h"
@@ -171,6 +172,7 @@ struct Settings {
   Fabric fabric;
   BendingReading reading;
   Scene scene;
+  ContactMode contact = ContactMode::automatic;
   MeshSettings mesh;
   SolverSettings solver;
   StartSettings start;

@@ -10,6 +10,21 @@ namespace {
 
 using namespace test;
 
+TEST_F(Records, ContactForcesWhereContactActs) {
+  std::vector<Record> records{make_record(0, header_), make_record(1, header_)};
+  write_records(file_, header_, records);
+  EXPECT_FALSE(contains(describe_records(file_), "/sim/contact_force"));
+  records[1].stats.contact = "support";
+  records[1].contact_force = records[1].positions / 7;
+  write_records(file_, header_, records);
+  EXPECT_TRUE(contains(describe_records(file_), "/sim/contact_force"));
+  const std::vector<Record> kept = read_records(file_);
+  expect_same(kept[0], records[0]);
+  expect_same(kept[1], records[1]);
+  EXPECT_EQ(kept[0].contact_force.size(), 0);
+  EXPECT_EQ(read_header(file_).scene.column_radius, header_.scene.column_radius);
+}
+
 TEST_F(Records, HeaderRoundTrip) {
   RecordsHeader header = header_;
   header.config += std::string(100'000, '#');  // longer than the 64 KiB of a plain attribute
