@@ -16,8 +16,9 @@ namespace drape {
 
 struct Column {
   std::string path;
-  std::string unit = "";  ///< empty for text
-  hdf5::Shape cell = {};  ///< shape of the value of one record; empty for a scalar
+  std::string unit = "";    ///< empty for text
+  hdf5::Shape cell = {};    ///< shape of the value of one record; empty for a scalar
+  std::uint64_t since = 1;  ///< version of the schema that brought it
 };
 
 /// The sizes that differ from file to file.
@@ -58,9 +59,9 @@ void visit_stats_columns(const std::string& group, Place place, Visit&& visit) {
   visit({group + "/wings_past_threshold", "1"}, at(&SolveStats::wings_past_threshold));
   visit({group + "/energy", "J"}, at(&SolveStats::energy));
   visit({group + "/cpu_seconds", "s"}, at(&SolveStats::cpu_seconds));
-  visit({group + "/contact"}, at(&SolveStats::contact));
-  visit({group + "/self_intersections", "1"}, at(&SolveStats::self_intersections));
-  visit({group + "/support_penetration", "m"}, at(&SolveStats::support_penetration));
+  visit({group + "/contact", "", {}, 2}, at(&SolveStats::contact));
+  visit({group + "/self_intersections", "1", {}, 2}, at(&SolveStats::self_intersections));
+  visit({group + "/support_penetration", "m", {}, 2}, at(&SolveStats::support_penetration));
 }
 
 /// Rows are Record. The outcome of an estimate has columns of its own, below.

@@ -143,7 +143,8 @@ struct ColumnWriter {
   }
 };
 
-/// A visitor of columns that reads them into as many rows as there are.
+/// A visitor of columns that reads them into as many rows as there are. Columns that are younger
+/// than the file leave the rows as they are.
 template <class Row>
 struct ColumnReader {
   const hdf5::File& file;
@@ -151,6 +152,7 @@ struct ColumnReader {
 
   template <class Place>
   void operator()(const Column& column, Place place) const {
+    if (column.since > schema_version(file)) return;
     using Value = Stored<ValueAt<Row, Place>>;
     using Element = typename Value::Element;
     const std::vector<Element> elements =
@@ -337,7 +339,7 @@ std::string describe_records(const fs::path& path) {
     const size_t count = record_count(file);
     std::ostringstream text;
     text << path.filename().string() << ": " << count << " records\n"
-         << "schema       " << kSchema << " " << kSchemaVersion << ", seed " << header.seed
+         << "schema       " << kSchema << " " << schema_version(file) << ", seed " << header.seed
          << ", commit " << header.git_commit << ", " << header.compiler << "\n"
          << "mesh         " << header.mesh_id << ": " << header.rest_uv.rows() << " vertices, "
          << header.triangles.rows() << " triangles, "

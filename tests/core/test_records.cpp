@@ -25,6 +25,30 @@ TEST_F(Records, ContactForcesWhereContactActs) {
   EXPECT_EQ(read_header(file_).scene.column_radius, header_.scene.column_radius);
 }
 
+TEST_F(Records, AFileOfVersionOneKnowsNothingOfContact) {
+  Record record = make_record(0, header_);
+  record.estimate = make_estimate(0, header_);
+  write_records(file_, header_, {record});
+  change([](hid_t file) {
+    const double one = 1;
+    const hid_t version = H5Aopen(file, "version", H5P_DEFAULT);
+    ASSERT_GE(H5Awrite(version, H5T_NATIVE_DOUBLE, &one), 0);
+    H5Aclose(version);
+    ASSERT_GE(H5Adelete(file, "column_radius"), 0);
+    for (const std::string group : {"/stats", "/stats_estimated"})
+      for (const char* column : {"/contact", "/self_intersections", "/support_penetration"})
+        ASSERT_GE(H5Ldelete(file, (group + column).c_str(), H5P_DEFAULT), 0);
+  });
+  for (SolveStats* stats : {&record.stats, &record.estimate->stats}) {
+    stats->contact = "off";
+    stats->self_intersections = -1;
+    stats->support_penetration = kNaN;
+  }
+  expect_same(read_records(file_).at(0), record);
+  EXPECT_EQ(read_header(file_).scene.column_radius, 0);
+  EXPECT_TRUE(contains(describe_records(file_), "drape-records 1,"));
+}
+
 TEST_F(Records, HeaderRoundTrip) {
   RecordsHeader header = header_;
   header.config += std::string(100'000, '#');  // longer than the 64 KiB of a plain attribute
