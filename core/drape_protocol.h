@@ -3,7 +3,9 @@
 // A fabric has many stable drapes, so a result always names how its branch was chosen:
 //   ramp   gravity grows from 0.02 g to g in 16 geometric steps, from flat with 1e-6 m of noise
 //   lobes  minimised from a folded state with a given number of lobes
-//   guided minimised under a guide from meridian arcs that end at an observed outline (guide.h)
+//   guided minimised under a guide from meridian arcs that end at an observed outline (guided.h)
+//   lowering  a plate under the flat specimen sinks until nothing touches it (lowering.h)
+//   ensemble  the lowest in energy from many starts, with all the others (ensemble.h)
 #pragma once
 
 #include <cstdint>

@@ -83,11 +83,9 @@ Corners4<double> Potential::wing_corners(int wing, const VecX& x) const {
 
 double Potential::energy(const VecX& x) const {
   const PaddedState& positions = padded(x);
-  double energy =
-      membrane_energy(discretization_->triangle_batches(), membrane_stiffness(fabric_), positions) +
-      bending_energy(wings(), positions) + weight_.dot(x);
-  if (guide_) energy += guide_energy(x);
-  return energy;
+  return membrane_energy(discretization_->triangle_batches(), membrane_stiffness(fabric_),
+                         positions) +
+         bending_energy(wings(), positions) + vertex_energy(x);
 }
 
 double Potential::energy_and_gradient(const VecX& x, VecX& gradient) const {
@@ -96,18 +94,10 @@ double Potential::energy_and_gradient(const VecX& x, VecX& gradient) const {
   double energy = add_membrane_gradient(discretization_->triangle_batches(),
                                         membrane_stiffness(fabric_), positions, sum);
   energy += add_bending_gradient(wings(), positions, sum);
-  energy += weight_.dot(x);
-  gradient.resize(x.size());
-  for (int v = 0; v < mesh().vertex_count(); ++v)
-    if (mesh().fixed[static_cast<size_t>(v)])
-      gradient.segment<3>(3 * v).setZero();
-    else
-      gradient.segment<3>(3 * v) = weight_.segment<3>(3 * v) + sum.col(v).head<3>();
-  if (guide_) {
-    energy += guide_energy(x);
-    gradient += guide_gradient(x);
-  }
-  return energy;
+  gradient.setZero(x.size());
+  for (int v : discretization_->free_vertices()) gradient.segment<3>(3 * v) = sum.col(v).head<3>();
+  add_vertex_gradient(x, gradient);
+  return energy + vertex_energy(x);
 }
 
 VecX Potential::gradient(const VecX& x) const {
@@ -116,57 +106,103 @@ VecX Potential::gradient(const VecX& x) const {
   return gradient;
 }
 
-double Potential::guide_energy(const VecX& x) const {
-  double misses = 0;
-  for (size_t i = 0; i < rim_.vertices.size(); ++i) {
-    const double miss = guide_miss(*guide_, x.segment<2>(3 * rim_.vertices[i])).value;
-    misses += rim_.share[i] * miss * miss;
-  }
-  return 0.5 * guide_stiffness() * misses;
-}
-
-VecX Potential::guide_gradient(const VecX& x) const {
-  VecX g = VecX::Zero(x.size());
-  for (size_t i = 0; i < rim_.vertices.size(); ++i) {
-    const GuideMiss miss = guide_miss(*guide_, x.segment<2>(3 * rim_.vertices[i]));
-    g.segment<2>(3 * rim_.vertices[i]) =
-        guide_stiffness() * rim_.share[i] * miss.value * miss.gradient;
-  }
-  return g;
-}
-
 void Potential::hessian(const VecX& x, double blend, SparseMatrix& H) const {
   const PaddedState& positions = padded(x);
   discretization_->reset_hessian(H);
   add_membrane_hessian(discretization_->triangle_batches(), discretization_->triangle_places(),
                        membrane_stiffness(fabric_), positions, blend, H.valuePtr());
   add_bending_hessian(wings(), discretization_->wing_places(), positions, blend, H.valuePtr());
-  if (guide_) add_guide_hessian(x, blend, H);
+  add_vertex_hessian(x, blend, H);
 }
 
-void Potential::add_guide_hessian(const VecX& x, double blend, SparseMatrix& H) const {
-  for (size_t i = 0; i < rim_.vertices.size(); ++i) {
-    const int v = rim_.vertices[i];
-    const GuideMiss miss = guide_miss(*guide_, x.segment<2>(3 * v));
-    const Eigen::Matrix2d block =
-        guide_stiffness() * rim_.share[i] *
-        (miss.gradient * miss.gradient.transpose() + (1 - blend) * miss.value * miss.hessian);
-    H.valuePtr()[discretization_->diagonal_entry(v, 0, 0)] += block(0, 0);
-    H.valuePtr()[discretization_->diagonal_entry(v, 1, 0)] += block(1, 0);
-    H.valuePtr()[discretization_->diagonal_entry(v, 1, 1)] += block(1, 1);
+double Potential::vertex_energy(const VecX& x) const {
+  double energy = weight_.dot(x);
+  if (guide_) {
+    double misses = 0;
+    for (size_t i = 0; i < rim_.vertices.size(); ++i) {
+      const double miss = guide_miss(*guide_, x.segment<2>(3 * rim_.vertices[i])).value;
+      misses += rim_.share[i] * miss * miss;
+    }
+    energy += 0.5 * guide_stiffness() * misses;
   }
+  if (plate_)
+    for (int v : discretization_->free_vertices())
+      energy += weight_[3 * v + 2] * plate_push(*plate_, x[3 * v + 2]).energy;
+  if (support_)
+    for (int v : discretization_->free_vertices())
+      energy += support_energy(*support_, support_weight(v), position(x, v));
+  return energy;
+}
+
+void Potential::add_vertex_gradient(const VecX& x, VecX& gradient) const {
+  for (int v : discretization_->free_vertices()) gradient[3 * v + 2] += weight_[3 * v + 2];
+  if (guide_) {
+    const double stiffness = guide_stiffness();
+    for (size_t i = 0; i < rim_.vertices.size(); ++i) {
+      const GuideMiss miss = guide_miss(*guide_, x.segment<2>(3 * rim_.vertices[i]));
+      gradient.segment<2>(3 * rim_.vertices[i]) +=
+          stiffness * rim_.share[i] * miss.value * miss.gradient;
+    }
+  }
+  if (plate_)
+    for (int v : discretization_->free_vertices())
+      gradient[3 * v + 2] += weight_[3 * v + 2] * plate_push(*plate_, x[3 * v + 2]).slope;
+  if (support_)
+    for (int v : discretization_->free_vertices())
+      gradient.segment<3>(3 * v) += support_gradient(*support_, support_weight(v), position(x, v));
+}
+
+void Potential::add_vertex_hessian(const VecX& x, double blend, SparseMatrix& H) const {
+  const auto add = [&](int v, const auto& block) {
+    for (int c = 0; c < block.cols(); ++c)
+      for (int r = c; r < block.rows(); ++r)
+        H.valuePtr()[discretization_->diagonal_entry(v, r, c)] += block(r, c);
+  };
+  if (guide_) {
+    const double stiffness = guide_stiffness();
+    for (size_t i = 0; i < rim_.vertices.size(); ++i) {
+      const GuideMiss miss = guide_miss(*guide_, x.segment<2>(3 * rim_.vertices[i]));
+      const Eigen::Matrix2d block =
+          stiffness * rim_.share[i] *
+          (miss.gradient * miss.gradient.transpose() + (1 - blend) * miss.value * miss.hessian);
+      add(rim_.vertices[i], block);
+    }
+  }
+  if (plate_)
+    for (int v : discretization_->free_vertices())
+      H.valuePtr()[discretization_->diagonal_entry(v, 2, 2)] +=
+          weight_[3 * v + 2] * plate_push(*plate_, x[3 * v + 2]).curvature;
+  if (support_)
+    for (int v : discretization_->free_vertices())
+      if (support_penetration(*support_, position(x, v)) > 0)
+        add(v, support_hessian(*support_, support_weight(v), position(x, v), blend));
+}
+
+VecX Potential::vertex_gradient_ddensity(const VecX& x) const {
+  VecX g = VecX::Zero(x.size());
+  add_vertex_gradient(x, g);
+  return g / fabric_.areal_density;
 }
 
 double Potential::guide_stiffness() const { return guide_->kappa * free_weight() / kGuideUnitMiss; }
 
+double Potential::support_weight(int vertex) const {
+  return fabric_.areal_density * gravity_ * support_->overhang *
+         std::sqrt(mesh().nodal_area[vertex]);
+}
+
+VecX Potential::contact_force(const VecX& x) const {
+  VecX force = VecX::Zero(x.size());
+  if (!support_) return force;
+  for (int v : discretization_->free_vertices())
+    force.segment<3>(3 * v) = -support_gradient(*support_, support_weight(v), position(x, v));
+  return force;
+}
+
 MatX Potential::gradient_dfabric(const VecX& x) const {
   MatX dg = MatX::Zero(x.size(), kParameterCount);
   const auto is_free = [&](int v) { return mesh().fixed[static_cast<size_t>(v)] == 0; };
-  for (int v : discretization_->free_vertices())
-    dg(3 * v + 2, static_cast<int>(Parameter::areal_density)) = gravity_ * mesh().nodal_area[v];
-  // the guide is as strong as the cloth is heavy
-  if (guide_)
-    dg.col(static_cast<int>(Parameter::areal_density)) += guide_gradient(x) / fabric_.areal_density;
+  dg.col(static_cast<int>(Parameter::areal_density)) = vertex_gradient_ddensity(x);
   for (int t : discretization_->active_triangles()) {
     const Eigen::Matrix<double, 9, 3> element =
         membrane_gradient_dstiffness(mesh().rest[static_cast<size_t>(t)], triangle_corners(t, x));
@@ -188,12 +224,7 @@ MatX Potential::gradient_dfabric(const VecX& x) const {
 
 ParameterVector Potential::gradient_dfabric_transposed(const VecX& x, const VecX& lambda) const {
   ParameterVector sum = ParameterVector::Zero();
-  for (int v : discretization_->free_vertices())
-    sum[static_cast<int>(Parameter::areal_density)] +=
-        lambda[3 * v + 2] * gravity_ * mesh().nodal_area[v];
-  if (guide_)
-    sum[static_cast<int>(Parameter::areal_density)] +=
-        lambda.dot(guide_gradient(x)) / fabric_.areal_density;
+  sum[static_cast<int>(Parameter::areal_density)] = lambda.dot(vertex_gradient_ddensity(x));
   for (int t : discretization_->active_triangles()) {
     Vec9 at_corners;
     for (int k = 0; k < 3; ++k)

@@ -1,7 +1,8 @@
 // Total potential energy of a hanging cloth and its derivatives.
 //
 //   E(x) = sum over triangles (Eqs. 1, 2) + sum over wings (Eqs. 3 to 11)
-//          + areal_density g sum_i A_i z_i  [+ a guide, see guide.h]
+//          + areal_density g sum_i A_i z_i  [+ a guide, guide.h] [+ a plate, plate.h]
+//          [+ contact, support_contact.h]
 //
 // with A_i the nodal areas. Fixed vertices have no unknowns: their rows of a gradient are zero.
 // Evaluations are serial, several elements at a time (lanes.h): drapes are parallel over fabrics,
@@ -19,6 +20,8 @@
 #include "core/fabric.h"
 #include "core/guide.h"
 #include "core/membrane.h"
+#include "core/plate.h"
+#include "core/support_contact.h"
 #include "core/types.h"
 
 namespace drape {
@@ -40,6 +43,10 @@ class Potential {
   void set_gravity(double gravity);
   void set_guide(std::optional<Guide> guide) { guide_ = std::move(guide); }
   const std::optional<Guide>& guide() const { return guide_; }
+  void set_plate(const std::optional<Plate>& plate) { plate_ = plate; }
+  const std::optional<Plate>& plate() const { return plate_; }
+  void set_support(const std::optional<SupportContact>& support) { support_ = support; }
+  const std::optional<SupportContact>& support() const { return support_; }
 
   /// x: 3n. Energy [J]; not finite for a collapsed triangle.
   double energy(const VecX& x) const;
@@ -49,6 +56,9 @@ class Potential {
 
   /// Both at once, for little more than the gradient alone; gradient: resized to 3n.
   double energy_and_gradient(const VecX& x, VecX& gradient) const;
+
+  /// Force of the support on every vertex (3n) [N]; zero where contact is off.
+  VecX contact_force(const VecX& x) const;
 
   /// d2E/dx2 over the unknowns (free order, lower triangle) [N/m]. A matrix that has the sparsity
   /// of Discretization::hessian_pattern already is filled in place. The negative geometric parts
@@ -81,10 +91,14 @@ class Potential {
   Corners4<double> wing_corners(int wing, const VecX& x) const;
   void weigh();
   WingSet wings() const;
-  double guide_energy(const VecX& x) const;
-  void add_guide_hessian(const VecX& x, double blend, SparseMatrix& H) const;
+  /// The terms of single vertices: weight, guide, plate and support, all in proportion to the areal
+  /// density. The gradient is added at free vertices only.
+  double vertex_energy(const VecX& x) const;
+  void add_vertex_gradient(const VecX& x, VecX& gradient) const;
+  void add_vertex_hessian(const VecX& x, double blend, SparseMatrix& H) const;
+  VecX vertex_gradient_ddensity(const VecX& x) const;
   double guide_stiffness() const;
-  VecX guide_gradient(const VecX& x) const;
+  double support_weight(int vertex) const;
 
   std::shared_ptr<const Discretization> discretization_;
   Fabric fabric_;
@@ -94,6 +108,8 @@ class Potential {
   std::vector<WingLawBatch> law_batches_;  // the same for the batches
   VecX weight_;                            // gradient of the gravity term (3n) [N]
   std::optional<Guide> guide_;
+  std::optional<Plate> plate_;
+  std::optional<SupportContact> support_;
   Rim rim_;
 };
 

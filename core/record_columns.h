@@ -1,4 +1,4 @@
-// The columns of schema drape-records 1: every column of a table is named here once, with its unit,
+// The columns of schema drape-records 2: every column of a table is named here once, with its unit,
 // the shape of one cell and its place in a record. Writing and reading are visits of this list.
 //
 // A visitor is called as visit(const Column&, place); place(row) is the value of that column in a
@@ -16,8 +16,9 @@ namespace drape {
 
 struct Column {
   std::string path;
-  std::string unit = "";  ///< empty for text
-  hdf5::Shape cell = {};  ///< shape of the value of one record; empty for a scalar
+  std::string unit = "";    ///< empty for text
+  hdf5::Shape cell = {};    ///< shape of the value of one record; empty for a scalar
+  std::uint64_t since = 1;  ///< version of the schema that brought it
 };
 
 /// The sizes that differ from file to file.
@@ -58,6 +59,9 @@ void visit_stats_columns(const std::string& group, Place place, Visit&& visit) {
   visit({group + "/wings_past_threshold", "1"}, at(&SolveStats::wings_past_threshold));
   visit({group + "/energy", "J"}, at(&SolveStats::energy));
   visit({group + "/cpu_seconds", "s"}, at(&SolveStats::cpu_seconds));
+  visit({group + "/contact", "", {}, 2}, at(&SolveStats::contact));
+  visit({group + "/self_intersections", "1", {}, 2}, at(&SolveStats::self_intersections));
+  visit({group + "/support_penetration", "m", {}, 2}, at(&SolveStats::support_penetration));
 }
 
 /// Rows are Record. The outcome of an estimate has columns of its own, below.
@@ -79,6 +83,14 @@ void visit_record_columns(const CellSizes& sizes, Visit&& visit) {
   visit({"/observation/coverage", "1", {sizes.rows, sizes.columns}}, seen(&Observation::coverage));
   visit({"/observation/drape_coefficient", "1"}, seen(&Observation::drape_coefficient));
   visit({"/observation/node_count", "1"}, seen(&Observation::node_count));
+}
+
+/// Rows are VecX: zero where contact is off. Only in files in which it acts on some record.
+inline constexpr const char* kContactForce = "/sim/contact_force";
+template <class Visit>
+void visit_contact_columns(const CellSizes& sizes, Visit&& visit) {
+  visit(
+      {kContactForce, "N", {sizes.vertices, 3}}, [](auto& force) -> auto& { return force; });
 }
 
 /// Rows are EstimateRecord; a record without estimate has an empty outcome.

@@ -47,12 +47,16 @@ hdf5::File open_records(const std::filesystem::path& path) {
   }
   if (schema != kSchema)
     throw hdf5::Error("has the schema \"" + schema + "\", must be \"" + kSchema + "\"");
-  const auto version = file.attribute<std::uint64_t>("/", "version");
-  if (version != kSchemaVersion)
+  const std::uint64_t version = schema_version(file);
+  if (version < 1 || version > kSchemaVersion)
     throw hdf5::Error("has version " + std::to_string(version) + " of " + kSchema +
-                      ", this program reads version " + std::to_string(kSchemaVersion) +
+                      ", this program reads versions 1 to " + std::to_string(kSchemaVersion) +
                       (version > kSchemaVersion ? ": use a newer program" : ""));
   return file;
+}
+
+std::uint64_t schema_version(const hdf5::File& file) {
+  return file.attribute<std::uint64_t>("/", "version");
 }
 
 void write_header(const hdf5::File& file, const RecordsHeader& header) {
@@ -65,6 +69,7 @@ void write_header(const hdf5::File& file, const RecordsHeader& header) {
   file.set_attribute("/", "gravity", header.scene.gravity);
   file.set_attribute("/", "specimen_radius", header.scene.specimen_radius);
   file.set_attribute("/", "support_radius", header.scene.support_radius);
+  file.set_attribute("/", "column_radius", header.scene.column_radius);
   file.set_attribute("/", "bending_law", std::string(name(header.reading.law)));
   file.set_attribute("/", "bending_threshold", std::string(name(header.reading.threshold)));
 
@@ -97,6 +102,8 @@ RecordsHeader read_header(const hdf5::File& file) {
   header.scene.gravity = file.attribute<double>("/", "gravity");
   header.scene.specimen_radius = file.attribute<double>("/", "specimen_radius");
   header.scene.support_radius = file.attribute<double>("/", "support_radius");
+  if (schema_version(file) >= 2)
+    header.scene.column_radius = file.attribute<double>("/", "column_radius");
   header.reading.law = bending_law_from_name(file.attribute<std::string>("/", "bending_law"));
   header.reading.threshold =
       bending_threshold_from_name(file.attribute<std::string>("/", "bending_threshold"));

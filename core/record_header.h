@@ -13,14 +13,17 @@
 namespace drape {
 
 inline constexpr const char* kSchema = "drape-records";
-inline constexpr std::uint64_t kSchemaVersion = 1;
+inline constexpr std::uint64_t kSchemaVersion = 2;
 
 /// Throws std::invalid_argument that names what is out of range.
 void check(const RecordsHeader& header);
 
-/// Opens a file for reading. Throws hdf5::Error unless it is of the schema and version that this
-/// program writes.
+/// Opens a file for reading. Throws hdf5::Error unless it is of the schema that this program writes
+/// and of its version or an older one.
 hdf5::File open_records(const std::filesystem::path& path);
+
+/// Version 1 knows no contact: neither its columns nor a column radius.
+std::uint64_t schema_version(const hdf5::File& file);
 
 /// /sim and /observation/coverage, which carry attributes of the header, must have been written.
 void write_header(const hdf5::File& file, const RecordsHeader& header);

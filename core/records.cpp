@@ -143,7 +143,8 @@ struct ColumnWriter {
   }
 };
 
-/// A visitor of columns that reads them into as many rows as there are.
+/// A visitor of columns that reads them into as many rows as there are. Columns that are younger
+/// than the file leave the rows as they are.
 template <class Row>
 struct ColumnReader {
   const hdf5::File& file;
@@ -151,6 +152,7 @@ struct ColumnReader {
 
   template <class Place>
   void operator()(const Column& column, Place place) const {
+    if (column.since > schema_version(file)) return;
     using Value = Stored<ValueAt<Row, Place>>;
     using Element = typename Value::Element;
     const std::vector<Element> elements =
@@ -188,6 +190,11 @@ size_t record_count(const hdf5::File& file) {
 }
 
 bool has_estimates(const hdf5::File& file) { return file.has_group("/estimate"); }
+
+bool has_contact(const hdf5::File& file) {
+  const std::vector<std::string> paths = file.datasets();
+  return std::find(paths.begin(), paths.end(), kContactForce) != paths.end();
+}
 
 // The parts of describe_records.
 
@@ -270,7 +277,9 @@ void write_records(const fs::path& path, const RecordsHeader& header,
   const EstimateRecord none = no_estimate(sizes);
   std::vector<const Record*> rows;
   std::vector<const EstimateRecord*> estimates;
-  bool any_estimate = false;
+  bool any_estimate = false, any_contact = false;
+  const VecX no_force = VecX::Zero(static_cast<Eigen::Index>(3 * sizes.vertices));
+  std::vector<const VecX*> forces;
   for (const Record& record : records) {
     in_record(rows.size(), [&] {
       validate(record.fabric);
@@ -281,11 +290,15 @@ void write_records(const fs::path& path, const RecordsHeader& header,
     rows.push_back(&record);
     estimates.push_back(record.estimate ? &*record.estimate : &none);
     any_estimate |= record.estimate.has_value();
+    const bool in_contact = record.contact_force.size() > 0;
+    forces.push_back(in_contact ? &record.contact_force : &no_force);
+    any_contact |= in_contact;
   }
   with_hdf5(path, [&] {
     write_durably(path, [&](const fs::path& part) {
       hdf5::File file = hdf5::File::create(part);
       visit_record_columns(sizes, ColumnWriter<Record>{file, rows});
+      if (any_contact) visit_contact_columns(sizes, ColumnWriter<VecX>{file, forces});
       if (any_estimate)
         visit_estimate_columns(sizes, ColumnWriter<EstimateRecord>{file, estimates});
       write_header(file, header);
@@ -304,6 +317,12 @@ std::vector<Record> read_records(const fs::path& path) {
     std::vector<Record> records(record_count(file));
     visit_record_columns(sizes, ColumnReader<Record>{file, records});
     for (size_t i = 0; i < records.size(); ++i) in_record(i, [&] { validate(records[i].fabric); });
+    if (has_contact(file)) {
+      std::vector<VecX> forces(records.size());
+      visit_contact_columns(sizes, ColumnReader<VecX>{file, forces});
+      for (size_t i = 0; i < records.size(); ++i)
+        if (records[i].stats.contact != "off") records[i].contact_force = std::move(forces[i]);
+    }
     if (!has_estimates(file)) return records;
 
     std::vector<EstimateRecord> estimates(records.size());
@@ -320,7 +339,7 @@ std::string describe_records(const fs::path& path) {
     const size_t count = record_count(file);
     std::ostringstream text;
     text << path.filename().string() << ": " << count << " records\n"
-         << "schema       " << kSchema << " " << kSchemaVersion << ", seed " << header.seed
+         << "schema       " << kSchema << " " << schema_version(file) << ", seed " << header.seed
          << ", commit " << header.git_commit << ", " << header.compiler << "\n"
          << "mesh         " << header.mesh_id << ": " << header.rest_uv.rows() << " vertices, "
          << header.triangles.rows() << " triangles, "

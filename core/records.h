@@ -1,4 +1,4 @@
-// Records: fabrics, their equilibria and what is seen of them, in HDF5 (schema drape-records 1).
+// Records: fabrics, their equilibria and what is seen of them, in HDF5 (schema drape-records 2).
 //
 // One file holds a table of N fabrics on one mesh: /mesh/<id>, /fabric, /params, /sim,
 // /observation, /stats, and /params_estimated, /sim_estimated, /estimate where an estimate was
@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -58,6 +59,9 @@ struct SolveStats {
   int wings_past_threshold = 0;
   double energy = 0;  ///< [J]
   double cpu_seconds = 0;
+  std::string contact = "off";  ///< what acts: "off" or "support"
+  int self_intersections = -1;  ///< crossing pairs of triangles; -1 where nothing was solved
+  double support_penetration = std::numeric_limits<double>::quiet_NaN();  ///< deepest vertex [m]
 };
 
 /// What is seen of a drape (/observation). Where the solve failed: NaN, a coverage of zero.
@@ -93,7 +97,8 @@ struct Record {
   std::string name;
   std::string category, subcategory, type, composition;  ///< the tag; empty if unknown
   Fabric fabric;
-  VecX positions;  ///< 3n [m]; NaN where the solve failed
+  VecX positions;      ///< 3n [m]; NaN where the solve failed
+  VecX contact_force;  ///< of the support on every vertex (3n) [N]; empty where contact is off
   SolveStats stats;
   Observation observation;
   std::optional<EstimateRecord> estimate;

@@ -27,4 +27,9 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 /// Position of one vertex in a state x (3n, vertex-major) [m].
 inline Vec3 position(const VecX& x, int vertex) { return x.segment<3>(3 * vertex); }
 
+/// Largest distance between corresponding vertices of two states (3n) [m].
+inline double largest_distance(const VecX& a, const VecX& b) {
+  return (a - b).reshaped(3, a.size() / 3).colwise().norm().maxCoeff();
+}
+
 }  // namespace drape

@@ -1,13 +1,13 @@
 // Following one branch of equilibria as the fabric changes.
 //
-// A drape has many equilibria, and a loss is differentiable along one of them only. Each step
-// predicts x + dx/dz dz and minimises from there; it counts only when the minimum lies close to the
-// prediction (relative to the predicted movement), which a snap to another branch does not.
-// Otherwise the step is halved.
+// A drape has many equilibria, and a loss is differentiable along one of them only. The fabric goes
+// along the straight line between two vectors of unknowns, the drape along its branch (branch.h); a
+// branch that snaps on the way is lost.
 #pragma once
 
 #include <optional>
 
+#include "adjoint/branch.h"
 #include "core/equilibrium.h"
 #include "core/potential.h"
 #include "estimation/parameter_space.h"
@@ -30,13 +30,6 @@ struct ContinuationOptions {
   EquilibriumOptions equilibrium{.tolerance = 1e-8, .max_iterations = 80};
 };
 
-/// Work done, summed over calls.
-struct ContinuationCost {
-  int solves = 0;
-  int newton_iterations = 0;
-  int factorizations = 0;
-};
-
 /// The sensitivities of a converged equilibrium make it a point to continue from.
 BranchPoint make_branch_point(const Potential& potential, const ParameterSpace& space,
                               const VecX& z, Equilibrium equilibrium);
@@ -47,8 +40,5 @@ std::optional<BranchPoint> follow_branch(Potential& potential, const ParameterSp
                                          const BranchPoint& from, const VecX& z,
                                          const ContinuationOptions& options,
                                          ContinuationCost* cost = nullptr);
-
-/// Largest distance between corresponding vertices of two states (3n) [m].
-double largest_distance(const VecX& a, const VecX& b);
 
 }  // namespace drape

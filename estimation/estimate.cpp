@@ -7,14 +7,15 @@
 #include <utility>
 
 #include "core/cpu_clock.h"
-#include "core/drape_protocol.h"
+#include "core/guided.h"
 
 namespace drape {
 namespace {
 
 constexpr double kLargestCentre = 10;     // the unknowns of the centre are bounded to +-10 mm
 constexpr double kStageTolerance = 1e-3;  // relative cost change that ends a guided fit
-constexpr double kFinalTolerance = 1e-6;  // and the last one, far below what noise leaves of the cost
+constexpr double kFinalTolerance =
+    1e-6;  // and the last one, far below what noise leaves of the cost
 
 /// One estimation from start to end; each method is one stage.
 class Estimation {
@@ -46,6 +47,8 @@ class Estimation {
     potential_.set_guide(std::nullopt);
     if (start_state) {
       result_.equilibrium = *start_state;
+      result_.contact.support = potential_.support().has_value();
+      result_.contact.reason = "As in the state that the fit starts from.";
     } else if (!guided_start()) {
       result_.outcome = EstimateOutcome::no_start;
       return;
@@ -73,10 +76,16 @@ class Estimation {
     result_.kappa = kappa;
     const Guide guide = guide_of(kappa);
     potential_.set_guide(guide);
-    result_.equilibrium = solve_equilibrium(
-        potential_, state_from_outline(potential_.mesh(), scene_, guide), options_.equilibrium);
-    result_.equilibrium.protocol = "guided";
-    ++result_.forward_solves;
+    ContactDrape start = drape_with_contact(
+        potential_, scene_, options_.contact,
+        [&](const Potential& potential) {
+          return solve_under_guide(potential, scene_, guide, options_.equilibrium);
+        },
+        options_.equilibrium);
+    result_.equilibrium = std::move(start.equilibrium);
+    result_.contact = std::move(start.contact);
+    const bool solved_again = result_.contact.support && options_.contact == ContactMode::automatic;
+    result_.forward_solves += solved_again ? 2 : 1;
     return result_.equilibrium.converged();
   }
 
@@ -142,7 +151,17 @@ class Estimation {
     return radial_profile(outline.points, objective_.centre_of(u_)).radius;
   }
 
+  /// Looks at the last state. What acts on it was decided at the start.
+  void check_last_contact() {
+    const VecX& x = result_.equilibrium.x;
+    std::string reason = std::move(result_.contact.reason);
+    result_.contact = check_contact(potential_, scene_, x);
+    result_.contact.reason = std::move(reason);
+    result_.contact_doubtful = would_choose_otherwise(potential_, result_.contact, x);
+  }
+
   void finish() {
+    check_last_contact();
     result_.centre = objective_.centre_of(u_);
     result_.outline_rms = std::sqrt(
         (profile_of(result_.equilibrium) - observation_.profile).squaredNorm() / kProfileSize);

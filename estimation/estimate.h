@@ -5,6 +5,9 @@
 // released (kappa = 1, 0.1, 0.01, 0). Exact data have zero residual at the truth for every kappa,
 // so the guide biases nothing; without it a fit from elsewhere ends on a neighbouring branch. Only
 // a fit that ends with kappa = 0 on a certified minimum counts.
+//
+// Whether the support acts (core/contact.h) is decided once, at the guided start, and held from
+// there on: the loss stays continuous. The last state says whether it would have decided otherwise.
 #pragma once
 
 #include <optional>
@@ -12,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/contact.h"
 #include "estimation/minimise.h"
 
 namespace drape {
@@ -27,7 +31,8 @@ struct EstimateOptions {
   double bound_factor = 100;        ///< estimates stay within start / factor .. start * factor
   double prior_log_sd = 0;          ///< of ln p about the start; 0: no prior
   int max_iterations = 60;          ///< of each fit
-  EquilibriumOptions equilibrium;   ///< of the first, guided solve
+  ContactMode contact = ContactMode::automatic;  ///< with a start state, the model's is held
+  EquilibriumOptions equilibrium;                ///< of the first, guided solve
   /// Along the unguided fit: trials that lose the branch are cheap to give up, Ceres shortens them.
   ContinuationOptions continuation{.halvings = 2, .largest_leap = 0.7};
   int max_solves = 400;  ///< forward solves of one fit, over all stages
@@ -44,12 +49,14 @@ std::string_view name(EstimateOutcome outcome);
 struct Estimate {
   EstimateOutcome outcome = EstimateOutcome::no_start;
   Fabric start, fabric;
-  Equilibrium equilibrium;     ///< of `fabric`, under the guide `kappa`
-  double kappa = 0;            ///< of the last guide; 0 unless the branch was lost
-  Vec2 centre = Vec2::Zero();  ///< of the observation in the drape's frame [m]
-  VecX start_profile;          ///< of the first drape [m]
-  VecX log_sd;                 ///< Gauss-Newton standard deviations of the unknowns
-  double outline_rms = 0;      ///< of the profile's misfit [m]
+  Equilibrium equilibrium;        ///< of `fabric`, under the guide `kappa`
+  double kappa = 0;               ///< of the last guide; 0 unless the branch was lost
+  Vec2 centre = Vec2::Zero();     ///< of the observation in the drape's frame [m]
+  Contact contact;                ///< held over the fit; what is seen of it in the last state
+  bool contact_doubtful = false;  ///< the last state would have decided otherwise
+  VecX start_profile;             ///< of the first drape [m]
+  VecX log_sd;                    ///< Gauss-Newton standard deviations of the unknowns
+  double outline_rms = 0;         ///< of the profile's misfit [m]
   int iterations = 0;
   int forward_solves = 0;
   double cpu_seconds = 0;

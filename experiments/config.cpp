@@ -297,6 +297,17 @@ void check_together(const Loaded& loaded, const std::string& name) {
   }
   if (kind == Kind::quickstart && settings.quickstart.table.empty())
     refuse("experiment.kind", "the quickstart needs quickstart.table");
+  if (settings.start.protocol == StartProtocol::guided &&
+      settings.start.outline.empty() == settings.start.dataset.empty())
+    refuse("start.protocol",
+           "a guided start needs either start.outline or start.dataset, and not both");
+  if (settings.start.protocol == StartProtocol::ensemble) try {
+      ensemble_starts(settings.start.ensemble);
+    } catch (const std::invalid_argument& error) {
+      refuse("start.protocol", error.what());
+    }
+  if (kind == Kind::branches && !(settings.branches.softest < settings.branches.stiffest))
+    refuse("branches.softest", "branches.softest must be less than branches.stiffest");
   const bool only_forward = kind == Kind::drape || kind == Kind::dataset ||
                             kind == Kind::robustness || kind == Kind::validation ||
                             kind == Kind::accuracy;

@@ -11,7 +11,7 @@ namespace drape {
 template <>
 std::vector<std::string> names_of<Kind>() {
   return {"drape",      "dataset",    "estimate",   "photograph", "gradient_check",
-          "robustness", "quickstart", "validation", "accuracy"};
+          "robustness", "quickstart", "validation", "accuracy",   "branches"};
 }
 template <>
 std::vector<std::string> names_of<MeshKind>() {
@@ -23,7 +23,12 @@ std::vector<std::string> names_of<FactorBackend>() {
 }
 template <>
 std::vector<std::string> names_of<StartProtocol>() {
-  return {"ramp", "lobes"};
+  return {"ramp", "lobes", "lowering", "guided", "ensemble"};
+}
+template <>
+std::vector<std::string> names_of<ContactMode>() {
+  return {std::string(name(ContactMode::automatic)), std::string(name(ContactMode::off)),
+          std::string(name(ContactMode::support))};
 }
 template <>
 std::vector<std::string> names_of<FitMethod>() {
@@ -135,6 +140,14 @@ std::vector<ConfigKey> make_keys() {
       "Radius of the disc that holds the specimen; less than specimen_radius.",
       MEMBER(scene.support_radius));
   add("scene", "gravity", "m/s^2", kPositive, "Acceleration of gravity.", MEMBER(scene.gravity));
+  add("scene", "column_radius", "m", kNotNegative,
+      "Radius of the column below that disc, at most support_radius; 0 for the same.",
+      MEMBER(scene.column_radius));
+  add("scene", "contact", "", kAny,
+      "Contact with the column: \"auto\" solves again with it where a drape would be more than 1 "
+      "mm inside, \"support\" always solves with it, \"off\" only looks. Branches are followed "
+      "without it under \"auto\".",
+      MEMBER(contact));
 
   add("mesh", "vertices", "", kVertices, "Number of vertices aimed at, fixed ring included.",
       MEMBER(mesh.vertices));
@@ -156,15 +169,47 @@ std::vector<ConfigKey> make_keys() {
       MEMBER(solver.factorization));
 
   add("start", "protocol", "", kAny,
-      "How one of the many equilibria is chosen: gravity ramp from flat, or a start folded into "
-      "lobes.",
+      "How one of the many equilibria is chosen: gravity ramp from flat, a start folded into "
+      "lobes, "
+      "a plate lowered from under it, a given outline, or the lowest in energy of an ensemble of "
+      "starts.",
       MEMBER(start.protocol));
   add("start", "lobes", "", {1, 60, true}, "Number of lobes of the folded start.",
       MEMBER(start.lobes));
   add("start", "phase", "rad", kAny, "Direction of the first lobe from the weft.",
       MEMBER(start.phase));
-  add("start", "seed", "", kNotNegative, "Of the small noise that the ramp starts with.",
-      MEMBER(start.seed));
+  add("start", "seed", "", kNotNegative,
+      "Of the small noise that ramp, lowering and ensemble start with.", MEMBER(start.seed));
+  add("start", "plate_step", "m", kPositive, "lowering: largest step of the plate.",
+      MEMBER(start.plate_step));
+  add("start", "outline", "", kAny,
+      "guided: CSV of an outline's corners, counter-clockwise, with a first line x,y; in metres, "
+      "centred on the support.",
+      MEMBER(start.outline));
+  add("start", "dataset", "", kAny, "guided: a results.h5 with the outline, instead of a CSV.",
+      MEMBER(start.dataset));
+  add("start", "record", "", kNotNegative, "guided: which record of that dataset.",
+      MEMBER(start.record));
+  add("start", "guide", "", kPositive,
+      "guided: strengths of the guide, released one after the other; then none.",
+      MEMBER(start.guide));
+  add("start", "guide_harmonics", "", {1, 180, true},
+      "guided: harmonics of the outline's profile that start and guide follow.",
+      MEMBER(start.guide_harmonics));
+  add("start", "ramps", "", kNotNegative, "ensemble: gravity ramps, each with other noise.",
+      MEMBER(start.ensemble.ramps));
+  add("start", "fewest_lobes", "", {1, 60, true}, "ensemble: folded starts from this many lobes.",
+      MEMBER(start.ensemble.fewest_lobes));
+  add("start", "most_lobes", "", {1, 60, true}, "ensemble: up to this many.",
+      MEMBER(start.ensemble.most_lobes));
+  add("start", "phases", "", kNotNegative,
+      "ensemble: directions of the first lobe, for each number of lobes.",
+      MEMBER(start.ensemble.phases));
+  add("start", "flats", "", kNotNegative, "ensemble: flat starts, each with other noise.",
+      MEMBER(start.ensemble.flats));
+  add("start", "same_distance", "m", kPositive,
+      "ensemble: two drapes are the same when no vertex lies further apart.",
+      MEMBER(start.ensemble.same_distance));
 
   add("dataset", "fabrics", "", at_least(1), "Number of random fabrics; a table overrides it.",
       MEMBER(dataset.fabrics));
@@ -293,6 +338,18 @@ std::vector<ConfigKey> make_keys() {
   add("accuracy", "seeds", "", at_least(1), "Meshes of every size.", MEMBER(accuracy.seeds));
   add("accuracy", "fabrics", "", {1, 9, true}, "How many of the study's nine fabrics.",
       MEMBER(accuracy.fabrics));
+
+  add("branches", "softest", "", kPositive,
+      "Factor on the fabric's bending stiffnesses where the sweeps start and end.",
+      MEMBER(branches.softest));
+  add("branches", "stiffest", "", kPositive, "Factor where they turn back; more than softest.",
+      MEMBER(branches.stiffest));
+  add("branches", "ramp", "", kAny, "Follow the branch that the gravity ramp finds.",
+      MEMBER(branches.ramp));
+  add("branches", "lobes", "", {1, 60, true},
+      "Follow the branches that starts folded into these many lobes find.", MEMBER(branches.lobes));
+  add("branches", "largest_step", "", {0, 1, false},
+      "Of the logarithm of the stiffness, in one step.", MEMBER(branches.largest_step));
   return keys;
 }
 

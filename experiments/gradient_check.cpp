@@ -179,8 +179,8 @@ GradientCheck check_gradient(const Settings& settings,
                              std::shared_ptr<const Discretization> discretization,
                              const Fabric& fabric, std::uint64_t seed) {
   GradientCheck result;
-  const Potential potential = make_potential(std::move(discretization), fabric, settings);
-  const Equilibrium cold = drape(settings, potential);
+  Potential potential = make_potential(std::move(discretization), fabric, settings);
+  const Equilibrium cold = drape(settings, potential).equilibrium;
   result.forward_cpu_seconds = cold.cpu_seconds;
   const Equilibrium equilibrium = cold.converged() ? solve_to_floor(potential, cold.x) : cold;
   result.status = equilibrium.converged() ? "ok" : name(equilibrium.status);

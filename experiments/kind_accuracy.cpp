@@ -47,6 +47,14 @@ std::vector<int> sizes_to_reference(const AccuracySettings& accuracy) {
   return sizes;
 }
 
+Equilibrium drape_from(const Settings& settings, Potential& potential, const VecX& x) {
+  return drape(settings, potential,
+               [&](const Potential& of) {
+                 return solve_equilibrium(of, x, equilibrium_options(settings));
+               })
+      .equilibrium;
+}
+
 /// The reference drape of one fabric, converged or not.
 Record solve_reference(const Settings& settings,
                        const std::vector<std::shared_ptr<const Discretization>>& meshes,
@@ -54,11 +62,10 @@ Record solve_reference(const Settings& settings,
   Equilibrium equilibrium;
   const Mesh* last = nullptr;
   for (const auto& discretization : meshes) {
-    const Potential potential = make_potential(discretization, fabric, settings);
-    equilibrium = last == nullptr ? drape(settings, potential)
-                                  : solve_equilibrium(
-                                        potential, Transfer(*last, potential.mesh())(equilibrium.x),
-                                        equilibrium_options(settings));
+    Potential potential = make_potential(discretization, fabric, settings);
+    equilibrium = last == nullptr ? drape(settings, potential).equilibrium
+                                  : drape_from(settings, potential,
+                                               Transfer(*last, potential.mesh())(equilibrium.x));
     last = &potential.mesh();
     if (!equilibrium.converged() || discretization == meshes.back()) {
       if (discretization == meshes.back()) return make_record(settings, potential, equilibrium);
@@ -88,15 +95,14 @@ Json compare(const Settings& settings, const Potential& potential, const Equilib
   return item;
 }
 
-Json solve(const Settings& settings, const Potential& potential, const Mesh& reference_mesh,
+Json solve(const Settings& settings, Potential& potential, const Mesh& reference_mesh,
            const Record& reference) {
   Json item = Json::object();
   try {
-    item["cold"] = compare(settings, potential, drape(settings, potential), reference);
+    item["cold"] = compare(settings, potential, drape(settings, potential).equilibrium, reference);
     const VecX start = Transfer(reference_mesh, potential.mesh())(reference.positions);
     item["followed"] =
-        compare(settings, potential,
-                solve_equilibrium(potential, start, equilibrium_options(settings)), reference);
+        compare(settings, potential, drape_from(settings, potential, start), reference);
   } catch (const std::exception& error) {  // an outline that cannot be traced
     for (const char* way : {"cold", "followed"})
       if (!item.contains(way)) item[way] = {{"status", error.what()}, {"cpu_seconds", nullptr}};
@@ -194,8 +200,7 @@ RunOutcome run_accuracy(const Settings& settings, OutputFolder& folder) {
       for_each_item(fabrics, threads, [&, vertices = vertices, seed = seed](int i) {
         const std::string item_file = item_name(vertices, seed, i);
         if (store.has(item_file)) return;
-        const Potential potential =
-            make_potential(discretization, study_fabric(i).fabric, settings);
+        Potential potential = make_potential(discretization, study_fabric(i).fabric, settings);
         const Record& record = records[static_cast<size_t>(i)];
         const Json nothing = {{"status", "no reference"}, {"cpu_seconds", nullptr}};
         Json item = converged(record) ? solve(settings, potential, reference->mesh(), record)

@@ -56,8 +56,9 @@ std::vector<Record> requested_records(const Settings& settings) {
 Record drape_record(const Settings& settings, std::shared_ptr<const Discretization> discretization,
                     const Fabric& fabric) {
   try {
-    const Potential potential = make_potential(discretization, fabric, settings);
-    return make_record(settings, potential, drape(settings, potential));
+    Potential potential = make_potential(discretization, fabric, settings);
+    const ContactDrape draped = drape(settings, potential);
+    return make_record(settings, potential, draped.equilibrium);
   } catch (const std::exception& error) {
     return failed_record(settings, discretization->mesh(), fabric, error.what());
   }
@@ -93,14 +94,20 @@ RunOutcome run_dataset(const Settings& settings, OutputFolder& folder) {
   if (interrupted()) return {"partial", {}};
 
   store.consolidate();
-  int failed = 0;
-  for (const Record& record : store.load_all()) failed += !converged(record);
+  int failed = 0, on_support = 0, self_intersecting = 0;
+  for (const Record& record : store.load_all()) {
+    failed += !converged(record);
+    on_support += record.stats.contact == "support";
+    self_intersecting += record.stats.self_intersections > 0;
+  }
   const int generated = count - resumed;
   RunOutcome outcome{failed == 0 ? "ok" : failed < count ? "partial" : "failed", {}};
   outcome.summary["requested"] = count;
   outcome.summary["generated"] = generated;
   outcome.summary["resumed"] = resumed;
   outcome.summary["failed"] = failed;
+  outcome.summary["contact_with_support"] = on_support;
+  outcome.summary["self_intersecting"] = self_intersecting;
   outcome.summary["vertices"] = discretization->mesh().vertex_count();
   outcome.summary["drapes_per_cpu_second"] =
       generated > 0 ? nlohmann::ordered_json(generated / cpu) : nullptr;

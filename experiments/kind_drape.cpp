@@ -1,4 +1,5 @@
 // kind = "drape": one fabric, one drape, everything that is known about it.
+#include "experiments/ensemble_run.h"
 #include "experiments/factorization_unit.h"
 #include "experiments/kinds.h"
 #include "experiments/model.h"
@@ -10,8 +11,9 @@ namespace {
 
 RunOutcome drape_once(const Settings& settings, OutputFolder& folder) {
   const auto discretization = make_discretization(settings);
-  const Potential potential = make_potential(discretization, settings.fabric, settings);
-  const Equilibrium equilibrium = drape(settings, potential);
+  Potential potential = make_potential(discretization, settings.fabric, settings);
+  const ContactDrape draped = drape(settings, potential);
+  const Equilibrium& equilibrium = draped.equilibrium;
   const double unit = factorization_unit(potential, equilibrium.x);
 
   const RecordStore store(folder.path(), records_header(settings, potential.mesh()), 1);
@@ -38,15 +40,14 @@ RunOutcome drape_once(const Settings& settings, OutputFolder& folder) {
   summary["factorization_equivalents"] = equilibrium.cpu_seconds / unit;
   summary["protocol"] = equilibrium.protocol;
   summary["wings_past_threshold"] = record.stats.wings_past_threshold;
-  summary["contact"] = "off";
-  summary["contact_checked"] = false;  // whether the cloth meets itself or the support's side
-  summary["self_intersections"] = nullptr;
+  write_contact(summary, record.stats, draped.contact.reason);
   return outcome;
 }
 
 }  // namespace
 
 RunOutcome run_drape(const Settings& settings, OutputFolder& folder) {
+  if (settings.start.protocol == StartProtocol::ensemble) return drape_ensemble(settings, folder);
   // One thread: the factorisation, nearly all of the work, gains nothing from a second one, and
   // waiting threads would count as CPU of the drape.
   RunOutcome outcome;

@@ -82,7 +82,8 @@ Record finished(const Settings& settings, const Targets& targets, Record record,
                   targets.header.scene.gravity);
   if (record.positions.size() == 0) {
     const Record tag = record;
-    record = make_record(settings, model, drape(settings, model));
+    const Equilibrium target = drape(settings, model).equilibrium;
+    record = make_record(settings, model, target);
     record.id = tag.id;
     record.name = tag.name;
   }

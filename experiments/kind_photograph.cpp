@@ -49,6 +49,9 @@ nlohmann::ordered_json summarise(const Settings& settings, const Record& record,
   const Vec3 B = effective_rigidity(e.fabric);
   summary["effective_rigidity"] = {{"B_u", B[0]}, {"B_v", B[1]}, {"B_45", B[2]}};
   summary["centre_mm"] = {1e3 * result.centre.x(), 1e3 * result.centre.y()};
+  summary["contact"] = result.contact.acting();
+  summary["contact_reason"] = result.contact.reason;
+  summary["contact_doubtful"] = result.contact_doubtful;
   summary["iterations"] = result.iterations;
   summary["forward_solves"] = e.forward_solves;
   summary["fit_cpu_seconds"] = result.cpu_seconds;

@@ -60,8 +60,9 @@ RobustnessSolve solve(const Settings& settings,
     const Fabric fabric = random_fabric(random, distribution_of(index));
     record = failed_record(settings, discretization->mesh(), fabric, "not solved");
     solve.bending_length = bending_length(fabric, settings.scene.gravity);
-    const Potential potential = make_potential(discretization, fabric, settings);
-    const Equilibrium equilibrium = drape(settings, potential);
+    Potential potential = make_potential(discretization, fabric, settings);
+    const ContactDrape draped = drape(settings, potential);
+    const Equilibrium& equilibrium = draped.equilibrium;
     record = make_record(settings, potential, equilibrium);
     solve.residual = equilibrium.residual;
     solve.rounding_floor = potential.rounding_floor(equilibrium.x);
@@ -69,6 +70,8 @@ RobustnessSolve solve(const Settings& settings,
     solve.newton_iterations = equilibrium.newton_iterations;
     solve.factorizations = equilibrium.factorizations;
     solve.wings_past_threshold = record.stats.wings_past_threshold;
+    solve.contact_with_support = draped.contact.support;
+    solve.self_intersections = record.stats.self_intersections;
     solve.cpu_seconds = equilibrium.cpu_seconds;
     solve.unit_cpu_seconds = factorization_unit(potential, equilibrium.x);
     solve.failure = failure_class(solve, record.stats.status, equilibrium.x.allFinite());

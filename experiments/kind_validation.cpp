@@ -99,12 +99,6 @@ Json to_json(const Comparison& c) {
           {"drape_cpu_seconds", c.cpu_seconds}};
 }
 
-double mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value / static_cast<double>(values.size());
-  return values.empty() ? NAN : sum;
-}
-
 /// One study: for every value the mean over the meshes, and all their errors.
 Json table(const std::vector<Json>& items) {
   std::map<double, std::vector<const Json*>> rows;

@@ -16,6 +16,7 @@
 #include "experiments/config_text.h"
 #include "experiments/interrupt.h"
 #include "experiments/kinds.h"
+#include "experiments/start_outline.h"
 #include "experiments/summary.h"
 
 namespace drape {
@@ -43,6 +44,8 @@ RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
       return run_validation(settings, folder);
     case Kind::accuracy:
       return run_accuracy(settings, folder);
+    case Kind::branches:
+      return run_branches(settings, folder);
   }
   throw std::logic_error("a kind of experiment without a function");
 }
@@ -59,6 +62,7 @@ void print_content(const OutputFolder& folder) {
 /// Reads the input files of a run before anything is written: throws what the run itself would.
 void check_inputs(const Settings& settings) {
   const Kind kind = settings.experiment.kind;
+  if (settings.start.protocol == StartProtocol::guided) start_profile(settings);
   if (kind == Kind::photograph)
     read_photograph(settings.photograph.file, 1e-3 * settings.photograph.mm_per_pixel,
                     settings.scene);

@@ -45,8 +45,8 @@ Json drape_one(Settings settings, std::shared_ptr<const Discretization> discreti
                StartProtocol protocol) {
   const StudyFabric study = study_fabric(index);
   settings.start.protocol = protocol;
-  const Potential potential = make_potential(std::move(discretization), study.fabric, settings);
-  const Equilibrium equilibrium = drape(settings, potential);
+  Potential potential = make_potential(std::move(discretization), study.fabric, settings);
+  const Equilibrium equilibrium = drape(settings, potential).equilibrium;
   Json item = {{"softness", study.softness},
                {"isotropic", study.isotropic},
                {"protocol", protocol_name(protocol)},
@@ -59,12 +59,6 @@ Json drape_one(Settings settings, std::shared_ptr<const Discretization> discreti
   item["node_count"] = seen.node_count;
   item["fold_direction"] = fold_direction(seen.profile, seen.node_count);
   return item;
-}
-
-double mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
 }
 
 double standard_deviation(const std::vector<double>& values) {
@@ -117,7 +111,7 @@ Json table_row(const std::vector<Json>& drapes) {
   }
   return {{"drapes", drapes.size()},
           {"converged", converged_count},
-          {"mean", all.empty() ? NAN : mean(all)},
+          {"mean", mean(all)},
           {"sd", standard_deviation(all)},
           {"sd_over_rotations", median(within_seed)},
           {"sd_over_seeds", standard_deviation(seed_means)},

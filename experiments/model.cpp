@@ -6,10 +6,13 @@
 
 #include "core/disc_mesh.h"
 #include "core/drape_protocol.h"
+#include "core/guided.h"
+#include "core/lowering.h"
 #include "core/outline.h"
 #include "core/profile.h"
 #include "core/version.h"
 #include "experiments/config_text.h"
+#include "experiments/start_outline.h"
 
 namespace drape {
 namespace {
@@ -45,7 +48,9 @@ EquilibriumOptions equilibrium_options(const Settings& settings) {
   return options;
 }
 
-Equilibrium drape(const Settings& settings, const Potential& potential) {
+namespace {
+
+Equilibrium drape_by_protocol(const Settings& settings, const Potential& potential) {
   const StartSettings& start = settings.start;
   const EquilibriumOptions options = equilibrium_options(settings);
   switch (start.protocol) {
@@ -53,8 +58,36 @@ Equilibrium drape(const Settings& settings, const Potential& potential) {
       return drape_by_ramp(potential, start.seed, options);
     case StartProtocol::lobes:
       return drape_by_lobes(potential, settings.scene, start.lobes, start.phase, options);
+    case StartProtocol::lowering:
+      return drape_by_lowering(potential, {.largest_step = start.plate_step, .seed = start.seed},
+                               options);
+    case StartProtocol::guided:
+      return drape_guided(potential, settings.scene,
+                          {.radius = harmonics(start_profile(settings), start.guide_harmonics)},
+                          start.guide, options);
+    case StartProtocol::ensemble:
+      return lowest_of_ensemble(potential, settings.scene, ensemble_options(settings), options);
   }
   throw std::logic_error("a start protocol without a function");
+}
+
+}  // namespace
+
+ContactDrape drape(const Settings& settings, Potential& potential) {
+  return drape(settings, potential,
+               [&](const Potential& of) { return drape_by_protocol(settings, of); });
+}
+
+ContactDrape drape(const Settings& settings, Potential& potential,
+                   const std::function<Equilibrium(const Potential&)>& from) {
+  return drape_with_contact(potential, settings.scene, settings.contact, from,
+                            equilibrium_options(settings));
+}
+
+EnsembleOptions ensemble_options(const Settings& settings) {
+  EnsembleOptions options = settings.start.ensemble;
+  options.seed = settings.start.seed;
+  return options;
 }
 
 PixelGrid observation_grid(const Settings& settings) {
@@ -84,7 +117,8 @@ RecordsHeader records_header(const Settings& settings, const Mesh& mesh) {
   return header;
 }
 
-SolveStats solve_stats(const Potential& potential, const Equilibrium& equilibrium) {
+SolveStats solve_stats(const Potential& potential, const Scene& scene,
+                       const Equilibrium& equilibrium) {
   SolveStats stats;
   stats.status = name(equilibrium.status);
   stats.protocol = equilibrium.protocol;
@@ -96,20 +130,37 @@ SolveStats solve_stats(const Potential& potential, const Equilibrium& equilibriu
   stats.wings_past_threshold = potential.wings_past_threshold(equilibrium.x);
   stats.energy = equilibrium.energy;
   stats.cpu_seconds = equilibrium.cpu_seconds;
+  if (!equilibrium.converged()) return stats;
+  const Contact contact = check_contact(potential, scene, equilibrium.x);
+  stats.contact = contact.acting();
+  stats.self_intersections = contact.self_intersections;
+  stats.support_penetration = contact.penetration;
   return stats;
+}
+
+void write_contact(nlohmann::ordered_json& summary, const SolveStats& stats,
+                   const std::string& reason) {
+  using Json = nlohmann::ordered_json;
+  const bool checked = stats.self_intersections >= 0;
+  summary["contact"] = stats.contact;
+  summary["contact_checked"] = checked;
+  summary["contact_reason"] = reason;
+  summary["support_penetration_mm"] = checked ? Json(1e3 * stats.support_penetration) : Json();
+  summary["self_intersections"] = checked ? Json(stats.self_intersections) : Json();
 }
 
 Record make_record(const Settings& settings, const Potential& potential,
                    const Equilibrium& equilibrium) {
   if (!equilibrium.converged()) {
     Record record = failed_record(settings, potential.mesh(), potential.fabric(), "");
-    record.stats = solve_stats(potential, equilibrium);
+    record.stats = solve_stats(potential, settings.scene, equilibrium);
     return record;
   }
   Record record;
   record.fabric = potential.fabric();
   record.positions = equilibrium.x;
-  record.stats = solve_stats(potential, equilibrium);
+  if (potential.support()) record.contact_force = potential.contact_force(equilibrium.x);
+  record.stats = solve_stats(potential, settings.scene, equilibrium);
   record.observation =
       observe(settings.scene, potential.mesh(), equilibrium.x, observation_grid(settings));
   return record;

@@ -4,8 +4,10 @@
 
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/contact.h"
 #include "core/coverage.h"
 #include "core/discretization.h"
 #include "core/equilibrium.h"
@@ -25,8 +27,14 @@ Potential make_potential(std::shared_ptr<const Discretization> discretization, c
 
 EquilibriumOptions equilibrium_options(const Settings& settings);
 
-/// The drape by the start protocol of the settings.
-Equilibrium drape(const Settings& settings, const Potential& potential);
+/// The drape by the start protocol of the settings, with contact as they say: the potential ends
+/// with the support where it acts.
+ContactDrape drape(const Settings& settings, Potential& potential);
+/// The same from another start: `from` takes the place of the protocol.
+ContactDrape drape(const Settings& settings, Potential& potential,
+                   const std::function<Equilibrium(const Potential&)>& from);
+
+EnsembleOptions ensemble_options(const Settings& settings);
 
 /// The grid of coverage images.
 PixelGrid observation_grid(const Settings& settings);
@@ -36,7 +44,12 @@ Observation observe(const Scene& scene, const Mesh& mesh, const VecX& x, const P
 
 RecordsHeader records_header(const Settings& settings, const Mesh& mesh);
 
-SolveStats solve_stats(const Potential& potential, const Equilibrium& equilibrium);
+SolveStats solve_stats(const Potential& potential, const Scene& scene,
+                       const Equilibrium& equilibrium);
+
+/// What the summary of a drape says of contact: `reason` as in Contact.
+void write_contact(nlohmann::ordered_json& summary, const SolveStats& stats,
+                   const std::string& reason);
 
 /// The record of an equilibrium, converged or not; the tag is left to the caller. Throws like
 /// observe.

@@ -79,6 +79,7 @@ EstimateOptions estimate_options(const Settings& settings) {
   options.bound_factor = settings.estimate.bounds;
   options.prior_log_sd = settings.estimate.prior_log_sd;
   options.max_iterations = settings.estimate.max_iterations;
+  options.contact = settings.contact;
   options.equilibrium = equilibrium_options(settings);
   options.continuation.equilibrium.tolerance = settings.solver.tolerance;
   return options;
@@ -97,9 +98,13 @@ EstimateRecord recover(const Settings& settings, const Potential& model, const R
   observation.coverage = record.observation.coverage;
 
   const Fabric start = perturbed(record.fabric, settings.estimate, seed);
-  const BranchTest branch = follow_target(model, record, start, options);
+  Potential target = model;  // what acted on the target acts on its branch
+  target.set_support(record.stats.contact == "support"
+                         ? std::optional(support_contact(header.scene))
+                         : std::nullopt);
+  const BranchTest branch = follow_target(target, record, start, options);
   const bool continued = settings.estimate.start == EstimateStart::continued && branch.shared;
-  const Estimate result = estimate(model, header.scene, observation, start, options,
+  const Estimate result = estimate(target, header.scene, observation, start, options,
                                    continued ? branch.start : std::nullopt);
   EstimateRecord kept =
       estimate_record(model, header.scene, result, observation, options.parameters);
@@ -112,6 +117,8 @@ EstimateRecord estimate_record(const Potential& model, const Scene& scene, const
                                const std::vector<Parameter>& parameters) {
   Potential potential = model;
   potential.set_fabric(estimate.fabric);
+  potential.set_support(estimate.contact.support ? std::optional(support_contact(scene))
+                                                 : std::nullopt);
   EstimateRecord kept;
   kept.fabric = estimate.fabric;
   kept.start = estimate.start;
@@ -121,7 +128,7 @@ EstimateRecord estimate_record(const Potential& model, const Scene& scene, const
     for (size_t i = 0; i < parameters.size(); ++i)
       kept.log_sd[static_cast<int>(parameters[i])] = estimate.log_sd[static_cast<Eigen::Index>(i)];
   kept.positions = estimate.equilibrium.x;
-  kept.stats = solve_stats(potential, estimate.equilibrium);
+  kept.stats = solve_stats(potential, scene, estimate.equilibrium);
   kept.stats.cpu_seconds = estimate.cpu_seconds;
   kept.forward_solves = estimate.forward_solves;
   kept.outline_rms = estimate.outline_rms;

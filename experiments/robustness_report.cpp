@@ -70,6 +70,8 @@ nlohmann::ordered_json to_json(const RobustnessSolve& s) {
           {"newton_iterations", s.newton_iterations},
           {"factorizations", s.factorizations},
           {"wings_past_threshold", s.wings_past_threshold},
+          {"contact_with_support", s.contact_with_support},
+          {"self_intersections", s.self_intersections},
           {"cpu_seconds", finite(s.cpu_seconds)},
           {"unit_cpu_seconds", finite(s.unit_cpu_seconds)}};
 }
@@ -89,6 +91,8 @@ RobustnessSolve robustness_solve(const nlohmann::ordered_json& json) {
   s.newton_iterations = json.at("newton_iterations");
   s.factorizations = json.at("factorizations");
   s.wings_past_threshold = json.at("wings_past_threshold");
+  s.contact_with_support = json.at("contact_with_support");
+  s.self_intersections = json.at("self_intersections");
   s.cpu_seconds = number(json.at("cpu_seconds"));
   s.unit_cpu_seconds = number(json.at("unit_cpu_seconds"));
   return s;
@@ -104,13 +108,15 @@ std::string failure_class(const RobustnessSolve& solve, const std::string& statu
 }
 
 nlohmann::ordered_json account(const std::vector<RobustnessSolve>& solves) {
-  int converged = 0, certified = 0, both_regimes = 0;
+  int converged = 0, certified = 0, both_regimes = 0, on_support = 0, self_intersecting = 0;
   std::map<std::string, int> classes;
   std::vector<double> over_target;
   for (const RobustnessSolve& solve : solves) {
     converged += solve.failure.empty();
     certified += solve.negative_eigenvalues == 0;
     both_regimes += solve.wings_past_threshold > 0;
+    on_support += solve.contact_with_support;
+    self_intersecting += solve.self_intersections > 0;
     if (!solve.failure.empty()) ++classes[solve.failure];
     over_target.push_back(solve.residual / solve.target());
   }
@@ -128,6 +134,8 @@ nlohmann::ordered_json account(const std::vector<RobustnessSolve>& solves) {
       {"worst_rounding_floor", worst(all([](Solve s) { return s.rounding_floor; }))},
       {"worst_residual_over_target", worst(over_target)},
       {"with_wings_past_threshold", both_regimes},
+      {"contact_with_support", on_support},
+      {"self_intersecting", self_intersecting},
       {"cpu_seconds_percentiles", finite_percentiles(cpu)},
       {"milliseconds_percentiles",
        finite_percentiles(all([](Solve s) { return 1e3 * s.cpu_seconds; }))},

@@ -23,6 +23,8 @@ struct RobustnessSolve {
   int newton_iterations = 0;
   int factorizations = 0;
   int wings_past_threshold = 0;
+  bool contact_with_support = false;
+  int self_intersections = -1;  ///< -1: not known
   double cpu_seconds = 0, unit_cpu_seconds = 0;
 
   /// The residual that a solve has to reach.

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/contact.h"
+#include "core/ensemble.h"
 #include "core/fabric.h"
 #include "core/scene.h"
 #include "core/sparse_factor.h"
@@ -27,7 +29,8 @@ enum class Kind {
   robustness,
   quickstart,
   validation,
-  accuracy
+  accuracy,
+  branches
 };
 
 struct Experiment {
@@ -58,13 +61,28 @@ struct SolverSettings {
   FactorBackend factorization = default_factor_backend();
 };
 
-enum class StartProtocol { ramp, lobes };
+enum class StartProtocol { ramp, lobes, lowering, guided, ensemble };
 
 struct StartSettings {
   StartProtocol protocol = StartProtocol::ramp;
   int lobes = 6;
-  double phase = 0;        ///< direction of the first lobe from +x [rad]
-  std::uint64_t seed = 1;  ///< of the ramp's noise
+  double phase = 0;               ///< direction of the first lobe from +x [rad]
+  std::uint64_t seed = 1;         ///< of the noise of ramp, lowering and ensemble
+  double plate_step = 2e-3;       ///< of lowering [m]
+  std::filesystem::path outline;  ///< of guided: CSV x,y [m]; empty: none
+  std::filesystem::path dataset;  ///< of guided: a results.h5; empty: none
+  int record = 0;                 ///< of that dataset
+  std::vector<double> guide{1, 0.1, 0.01};
+  int guide_harmonics = 24;
+  EnsembleOptions ensemble;  ///< its seed is `seed`
+};
+
+/// Sweeps of the bending stiffness, each from another start at the softest fabric.
+struct BranchesSettings {
+  double softest = 1, stiffest = 10;  ///< factors on the fabric's bending stiffnesses
+  bool ramp = true;                   ///< a branch from the gravity ramp
+  std::vector<int> lobes{4, 7};       ///< and one from each of these folded starts
+  double largest_step = 0.05;         ///< of the logarithm
 };
 
 /// How the first drape of a fit is found.
@@ -154,6 +172,7 @@ struct Settings {
   Fabric fabric;
   BendingReading reading;
   Scene scene;
+  ContactMode contact = ContactMode::automatic;
   MeshSettings mesh;
   SolverSettings solver;
   StartSettings start;
@@ -165,6 +184,7 @@ struct Settings {
   QuickstartSettings quickstart;
   ValidationSettings validation;
   AccuracySettings accuracy;
+  BranchesSettings branches;
 };
 
 }  // namespace drape

@@ -1,4 +1,4 @@
-// Percentiles of a few values.
+// Mean and percentiles of a few values.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,6 +6,9 @@
 #include <vector>
 
 namespace drape {
+
+/// NaN of nothing.
+double mean(const std::vector<double>& values);
 
 /// Linear between ranks, percent in [0, 100]; NaN values are left out, NaN if none is left.
 double percentile(std::vector<double> values, double percent);

@@ -37,6 +37,7 @@ class Record:
     profile: np.ndarray  # [360]
     drape_coefficient: float
     node_count: int
+    energy: float  # NaN where the solve failed
     estimate: Estimate | None
 
 
@@ -105,6 +106,7 @@ def _record(row):
         profile=row["observation/profile"],
         drape_coefficient=float(row["observation/drape_coefficient"]),
         node_count=int(row["observation/node_count"]),
+        energy=float(row["stats/energy"]),
         estimate=_estimate(row) if row.get("estimate/outcome") else None,
     )
 

@@ -10,6 +10,45 @@ namespace {
 
 using namespace test;
 
+TEST_F(Records, ContactForcesWhereContactActs) {
+  std::vector<Record> records{make_record(0, header_), make_record(1, header_)};
+  write_records(file_, header_, records);
+  EXPECT_FALSE(contains(describe_records(file_), "/sim/contact_force"));
+  records[1].stats.contact = "support";
+  records[1].contact_force = records[1].positions / 7;
+  write_records(file_, header_, records);
+  EXPECT_TRUE(contains(describe_records(file_), "/sim/contact_force"));
+  const std::vector<Record> kept = read_records(file_);
+  expect_same(kept[0], records[0]);
+  expect_same(kept[1], records[1]);
+  EXPECT_EQ(kept[0].contact_force.size(), 0);
+  EXPECT_EQ(read_header(file_).scene.column_radius, header_.scene.column_radius);
+}
+
+TEST_F(Records, AFileOfVersionOneKnowsNothingOfContact) {
+  Record record = make_record(0, header_);
+  record.estimate = make_estimate(0, header_);
+  write_records(file_, header_, {record});
+  change([](hid_t file) {
+    const double one = 1;
+    const hid_t version = H5Aopen(file, "version", H5P_DEFAULT);
+    ASSERT_GE(H5Awrite(version, H5T_NATIVE_DOUBLE, &one), 0);
+    H5Aclose(version);
+    ASSERT_GE(H5Adelete(file, "column_radius"), 0);
+    for (const std::string group : {"/stats", "/stats_estimated"})
+      for (const char* column : {"/contact", "/self_intersections", "/support_penetration"})
+        ASSERT_GE(H5Ldelete(file, (group + column).c_str(), H5P_DEFAULT), 0);
+  });
+  for (SolveStats* stats : {&record.stats, &record.estimate->stats}) {
+    stats->contact = "off";
+    stats->self_intersections = -1;
+    stats->support_penetration = kNaN;
+  }
+  expect_same(read_records(file_).at(0), record);
+  EXPECT_EQ(read_header(file_).scene.column_radius, 0);
+  EXPECT_TRUE(contains(describe_records(file_), "drape-records 1,"));
+}
+
 TEST_F(Records, HeaderRoundTrip) {
   RecordsHeader header = header_;
   header.config += std::string(100'000, '#');  // longer than the 64 KiB of a plain attribute

@@ -11,6 +11,7 @@
 #include "core/drape_protocol.h"
 #include "estimation/estimate.h"
 #include "tests/support/shapes.h"
+#include "tests/support/soft_drape.h"
 
 namespace drape::test {
 namespace {
@@ -121,6 +122,52 @@ TEST(Estimate, NoGuidedDrapeIsAnOutcome) {
       estimate(truth().potential, kCusick, truth().seen, truth().start(), options);
   EXPECT_EQ(found.outcome, EstimateOutcome::no_start);
   EXPECT_EQ(found.fabric.k_bu, truth().start().k_bu);
+}
+
+TEST(Estimate, ContactIsDecidedAtTheStartAndHeld) {
+  // an outline so narrow between its folds that a strong guide draws the cloth under the rim
+  OutlineObservation seen;
+  seen.profile.resize(kProfileSize);
+  for (int i = 0; i < kProfileSize; ++i)
+    seen.profile[i] = 0.104 + 0.012 * std::cos(6 * 2 * M_PI * i / kProfileSize);
+  const Potential model(disc(300), soft_fabric(), {}, kCusick.gravity);
+  EstimateOptions options;
+  options.parameters = {Parameter::k_bh};
+  options.max_iterations = 1;
+  options.guide = {10};
+
+  const Estimate held = estimate(model, kCusick, seen, soft_fabric(), options);
+  EXPECT_NE(held.outcome, EstimateOutcome::no_start);
+  EXPECT_TRUE(held.contact.checked);
+  EXPECT_TRUE(held.contact.support);
+  EXPECT_EQ(held.contact.reason.find("Switched on: without it"), 0u) << held.contact.reason;
+  EXPECT_LE(held.contact.penetration, 3e-4);
+
+  options.contact = ContactMode::off;
+  const Estimate without = estimate(model, kCusick, seen, soft_fabric(), options);
+  EXPECT_FALSE(without.contact.support);
+  EXPECT_EQ(without.contact.reason.find("Switched off by the settings"), 0u)
+      << without.contact.reason;
+  EXPECT_EQ(without.contact_doubtful, without.contact.penetration > kAllowedPenetration);
+}
+
+TEST(Estimate, FromAStateInContactContactIsHeld) {
+  Potential model(disc(300), soft_fabric(), {}, kCusick.gravity);
+  const ContactDrape target = drape_with_contact(
+      model, kCusick, ContactMode::automatic,
+      [](const Potential& potential) { return drape_by_lobes(potential, kCusick, 6, 0.1); });
+  ASSERT_TRUE(target.equilibrium.converged());
+  ASSERT_TRUE(target.contact.support);
+  OutlineObservation seen;
+  const Outline outline = trace_outline(model.mesh(), kCusick, target.equilibrium.x);
+  seen.profile = radial_profile(outline.points).radius;
+  EstimateOptions options;
+  options.parameters = {Parameter::k_bu, Parameter::k_bh};
+  const Estimate found = estimate(model, kCusick, seen, soft_fabric(), options, target.equilibrium);
+  EXPECT_EQ(found.outcome, EstimateOutcome::succeeded) << found.message;
+  EXPECT_TRUE(found.contact.support);
+  EXPECT_FALSE(found.contact_doubtful);
+  EXPECT_LE(found.outline_rms, 1e-6);  // it starts at the truth
 }
 
 TEST(Estimate, OutcomesHaveNames) {

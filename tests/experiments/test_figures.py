@@ -17,7 +17,9 @@ FIGURES = Path(__file__).resolve().parents[2] / "experiments" / "figures"
 sys.path.insert(0, str(FIGURES))
 
 import accuracy  # noqa: E402
+import branches  # noqa: E402
 import drape_sheet  # noqa: E402
+import ensemble  # noqa: E402
 import estimate_overlay  # noqa: E402
 import results as records  # noqa: E402
 import robustness  # noqa: E402
@@ -89,6 +91,7 @@ def write(path, count, vertices=600, outcomes=("succeeded",), status="converged"
         file["sim"].attrs["mesh"] = "disc"
         file["sim_estimated/positions"] = states
         file["stats/status"] = ["converged"] * (count - 1) + [status]
+        file["stats/energy"] = -1e-3 + 2e-5 * np.arange(count)
         profiles = np.array([profile(*shape) for shape in shapes])
         file["observation/profile"] = profiles
         file["observation/coverage"] = np.zeros((count, 4, 4), np.uint16)
@@ -224,6 +227,34 @@ class Figures(unittest.TestCase):
             done = self.run_script(f"{script}.py", file, "--out", self.folder / script)
             self.assertEqual(done.returncode, 2)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+    def test_ensemble_shows_every_minimum(self):
+        write(self.file, 9)
+        page = ensemble.picture(records.read(self.file))
+        self.assertIn("9 starts end in 9 distinct minima", self.words(page))
+        self.assertEqual(len(page.figure.axes[0].patches), 9)
+
+    def test_branches_show_sweeps_and_snaps(self):
+        write(self.file, 8)
+        points = [dict(sweep="up" if i < 4 else "down", segment=int(2 <= i < 6), factor=0.5 + i % 4,
+                       drape_coefficient_percent=50 + 5 * i, node_count=4 + i // 2, energy=-1e-3,
+                       record=i) for i in range(8)]
+        snap = dict(start="ramp", sweep="up", segment=0, factor=2.0, vertex_jump=0.01,
+                    drape_coefficient_percent_before=56.0, drape_coefficient_percent_after=60.0,
+                    drape_coefficient_percent_jump=4.0)
+        small = dict(snap, segment=1, drape_coefficient_percent_jump=0.1,
+                     drape_coefficient_percent_after=56.1)
+        branch = dict(start="ramp", points=points, snaps=[snap, small])
+        (self.folder / "branches.json").write_text(
+            json.dumps(dict(branches=[branch], snaps=branch["snaps"])))
+        page = branches.diagram(records.read(self.file), branches.read_branches(self.file))
+        self.assertIn("2 snaps, 1 of them", self.words(page))
+        ended = self.run_script("branches.py", self.file, "--out", self.folder / "picture")
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        (self.folder / "branches.json").unlink()
+        ended = self.run_script("branches.py", self.file, "--out", self.folder / "picture")
+        self.assertEqual(ended.returncode, 2)
+        self.assertIn("branches.json: cannot be read", ended.stderr)
 
     def test_scripts_write_both_files(self):
         write(self.file, 1)

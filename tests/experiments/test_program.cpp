@@ -217,6 +217,35 @@ TEST_F(Program, RunsOnceAndThenLeavesTheFolderAlone) {
   EXPECT_EQ(std::filesystem::last_write_time(scratch / "out/summary.json"), written);
 }
 
+TEST_F(Program, ContactIsDecidedAndReported) {
+  const auto draped = [&](const std::string& out, const std::string& settings) {
+    const Ended ended =
+        drape("run a.toml --threads 1 --set start.protocol=lobes --out " + out + " " + settings);
+    EXPECT_EQ(ended.exit_code, 0) << ended.text;
+    return nlohmann::json::parse(scratch.read(out + "/summary.json"));
+  };
+  const auto stiff = draped("stiff", "");
+  EXPECT_EQ(stiff["contact"], "off");
+  EXPECT_EQ(stiff["contact_checked"], true);
+  EXPECT_EQ(stiff["self_intersections"], 0);
+  EXPECT_EQ(stiff["support_penetration_mm"], 0);
+
+  const std::string soft = "--set fabric.k_bu=4e-7 --set fabric.k_bv=3e-7 --set fabric.k_bh=3.5e-7";
+  const auto automatic = draped("automatic", soft);
+  EXPECT_EQ(automatic["contact"], "support");
+  EXPECT_LT(automatic["support_penetration_mm"], 0.3);
+  EXPECT_NE(automatic["contact_reason"].get<std::string>().find("without it"), std::string::npos);
+  EXPECT_TRUE(drape("info automatic/results.h5").says("/sim/contact_force"));
+  const auto off = draped("off", soft + " --set scene.contact=off");
+  EXPECT_EQ(off["contact"], "off");
+  EXPECT_GT(off["support_penetration_mm"], 1);
+  // nothing in the way of the folds
+  const auto slim = draped("slim", soft + " --set scene.column_radius=0.03");
+  EXPECT_EQ(slim["contact"], "off");
+  EXPECT_EQ(slim["support_penetration_mm"], 0);
+  EXPECT_EQ(slim["drape_coefficient_percent"], off["drape_coefficient_percent"]);
+}
+
 TEST_F(Program, RefusesAFolderWithOtherContent) {
   std::filesystem::create_directory(scratch / "full");
   scratch.write("full/thesis.tex", "x");

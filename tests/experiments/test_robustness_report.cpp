@@ -25,6 +25,8 @@ RobustnessSolve good(int index) {
   solve.newton_iterations = 30;
   solve.factorizations = 12 + index;
   solve.wings_past_threshold = 7;
+  solve.contact_with_support = index % 2 == 1;
+  solve.self_intersections = 2 * index;
   solve.cpu_seconds = 0.2;
   solve.unit_cpu_seconds = 0.01;
   return solve;
@@ -36,6 +38,8 @@ RobustnessSolve thrown(int index) {
   solve.reason = "the outline cannot be traced";
   solve.residual = solve.rounding_floor = solve.cpu_seconds = solve.unit_cpu_seconds = kNaN;
   solve.negative_eigenvalues = -1;
+  solve.contact_with_support = false;
+  solve.self_intersections = -1;
   return solve;
 }
 
@@ -60,6 +64,8 @@ TEST(RobustnessReport, CountsAndPercentilesWithoutNaN) {
   EXPECT_EQ(summary["fabrics"], 3);
   EXPECT_EQ(summary["converged"], 2);
   EXPECT_EQ(summary["certified_minima"], 2);
+  EXPECT_EQ(summary["contact_with_support"], 1);
+  EXPECT_EQ(summary["self_intersecting"], 1);
   EXPECT_EQ(summary["worst_residual"], 2e-9);
   EXPECT_NEAR(summary["worst_residual_over_target"].get<double>(), 0.2, 1e-12);  // rounding
   EXPECT_NEAR(summary["factorization_equivalents_percentiles"]["50"].get<double>(), 20, 1e-9);

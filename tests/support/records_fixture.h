@@ -44,7 +44,7 @@ inline RecordsHeader make_header() {
   }
   header.fixed = {0, 0, 0, 0, 0, 0, 1};
   header.clamp_wing_factor = 1.75;
-  header.scene = {0.14, 0.08, 9.81};
+  header.scene = {0.14, 0.08, 9.81, 0.05};
   header.reading = {BendingLaw::secant, BendingThreshold::radius};
   header.grid = {5, 8, 0.05, Vec2(-0.2, -0.125)};
   return header;
@@ -67,7 +67,8 @@ inline Fabric make_fabric(Uniform& uniform) {
 }
 
 inline SolveStats make_stats(Uniform& uniform, const std::string& status) {
-  return {status, "gravity ramp", uniform(), uniform(), 12, 34, 1, 56, -uniform(), uniform()};
+  return {status, "gravity ramp", uniform(), uniform(), 12, 34,       1,
+          56,     -uniform(),     uniform(), "off",     3,  uniform()};
 }
 
 inline Record make_record(int index, const RecordsHeader& header) {
@@ -126,7 +127,9 @@ inline bool same(const SolveStats& a, const SolveStats& b) {
          same(a.rounding_floor, b.rounding_floor) && a.newton_iterations == b.newton_iterations &&
          a.factorizations == b.factorizations && a.negative_eigenvalues == b.negative_eigenvalues &&
          a.wings_past_threshold == b.wings_past_threshold && same(a.energy, b.energy) &&
-         same(a.cpu_seconds, b.cpu_seconds);
+         same(a.cpu_seconds, b.cpu_seconds) && a.contact == b.contact &&
+         a.self_intersections == b.self_intersections &&
+         same(a.support_penetration, b.support_penetration);
 }
 
 inline void expect_same(const EstimateRecord& a, const EstimateRecord& b) {
@@ -155,6 +158,7 @@ inline void expect_same(const Record& a, const Record& b) {
   EXPECT_EQ(a.composition, b.composition);
   EXPECT_TRUE(same(a.fabric, b.fabric));
   EXPECT_TRUE(same(a.positions, b.positions));
+  EXPECT_TRUE(same(a.contact_force, b.contact_force));
   EXPECT_TRUE(same(a.stats, b.stats));
   EXPECT_TRUE(same(a.observation.profile, b.observation.profile));
   ASSERT_EQ(a.observation.coverage.rows(), b.observation.coverage.rows());

@@ -1,0 +1,43 @@
+#include "core/guided.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "core/drape_protocol.h"
+
+namespace drape {
+
+Equilibrium solve_under_guide(const Potential& potential, const Scene& scene, const Guide& guide,
+                              const EquilibriumOptions& options) {
+  Potential guided = potential;
+  guided.set_guide(guide);
+  Equilibrium result =
+      solve_equilibrium(guided, state_from_outline(potential.mesh(), scene, guide), options);
+  result.protocol = "guided";
+  return result;
+}
+
+Equilibrium drape_guided(const Potential& potential, const Scene& scene, Guide guide,
+                         const std::vector<double>& kappas, const EquilibriumOptions& options) {
+  if (kappas.empty())
+    throw std::invalid_argument("guided drape: no strength of the guide is given");
+  guide.kappa = kappas.front();
+  Equilibrium result = solve_under_guide(potential, scene, guide, options);
+  for (size_t i = 1; i <= kappas.size() && result.converged(); ++i) {
+    Potential released = potential;
+    released.set_guide(std::nullopt);
+    if (i < kappas.size()) {
+      guide.kappa = kappas[i];
+      released.set_guide(guide);
+    }
+    Equilibrium next = solve_equilibrium(released, result.x, options);
+    next.newton_iterations += result.newton_iterations;
+    next.factorizations += result.factorizations;
+    next.cpu_seconds += result.cpu_seconds;
+    next.protocol = std::move(result.protocol);
+    result = std::move(next);
+  }
+  return result;
+}
+
+}  // namespace drape

@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "core/drape_protocol.h"
+#include "core/guided.h"
+#include "core/outline.h"
+#include "tests/support/shapes.h"
+
+namespace drape::test {
+namespace {
+
+TEST(Guided, FindsADrapeFromItsOutline) {
+  const Potential potential(disc(300), stiff_fabric(), {}, kCusick.gravity);
+  const auto profile = [&](const VecX& x) {
+    return radial_profile(trace_outline(potential.mesh(), kCusick, x).points).radius;
+  };
+  const Equilibrium target = drape_by_lobes(potential, kCusick, 4, 0.1);
+  ASSERT_TRUE(target.converged());
+  const Guide guide{.radius = harmonics(profile(target.x), 24)};
+  const Equilibrium held = solve_under_guide(potential, kCusick, guide);
+  const Equilibrium drape = drape_guided(potential, kCusick, guide, {1, 0.1, 0.01});
+  ASSERT_TRUE(held.converged() && drape.converged());
+  EXPECT_EQ(drape.protocol, "guided");
+  EXPECT_GT(drape.newton_iterations, held.newton_iterations);
+  // released: an equilibrium of the unguided potential, and the one the outline was taken from
+  EXPECT_LE(potential.residual(potential.gradient(drape.x)), 1e-8);
+  const double rms = std::sqrt((profile(drape.x) - profile(target.x)).squaredNorm() / kProfileSize);
+  EXPECT_LE(rms, 1e-5);  // tolerances of two solves; a neighbouring branch is .4 mm away
+}
+
+TEST(Guided, NeedsAStrength) {
+  const Potential potential(disc(250), stiff_fabric(), {}, kCusick.gravity);
+  const Guide guide{.radius = harmonics(VecX::Constant(kProfileSize, 0.12), 4)};
+  EXPECT_THROW(drape_guided(potential, kCusick, guide, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace drape::test
