@@ -17,7 +17,8 @@ std::optional<BranchState> step_to(Potential& potential, const FabricPath& path,
                                    ContinuationCost& cost) {
   potential.set_fabric(path.fabric(s));
   const VecX predicted = from.equilibrium.x + (s - from.s) * from.dx_ds;
-  Equilibrium equilibrium = solve_equilibrium(potential, predicted, options.equilibrium);
+  Equilibrium equilibrium =
+      solve_equilibrium(potential, predicted, options.equilibrium, from.equilibrium.factor);
   ++cost.solves;
   cost.newton_iterations += equilibrium.newton_iterations;
   cost.factorizations += equilibrium.factorizations;

@@ -23,7 +23,7 @@ void drape_cold_folded(benchmark::State& state) {
 void drape_cold_ramp(benchmark::State& state) {
   const Potential potential = medium_drape(vertices(state));
   Equilibrium equilibrium;
-  for (auto _ : state) equilibrium = drape_by_ramp(potential, 1);
+  for (auto _ : state) equilibrium = drape_by_coarse_ramp(potential, 1);
   report_solve(state, potential, equilibrium);
 }
 

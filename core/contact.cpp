@@ -23,9 +23,7 @@ std::string penetration_text(double penetration) {
 
 /// The solve of `first` went on as `second`.
 Equilibrium continued(const Equilibrium& first, Equilibrium second) {
-  second.newton_iterations += first.newton_iterations;
-  second.factorizations += first.factorizations;
-  second.cpu_seconds += first.cpu_seconds;
+  second.add_work_of(first);
   second.protocol = first.protocol;
   return second;
 }
@@ -76,7 +74,8 @@ ContactDrape with_contact(Potential& potential, const Scene& scene, ContactMode 
     contact.reason = "Not needed: " + found + ", " + millimetres(kAllowedPenetration) + " allowed.";
   } else {
     potential.set_support(support_contact(scene));
-    equilibrium = continued(equilibrium, solve_equilibrium(potential, equilibrium.x, options));
+    equilibrium = continued(
+        equilibrium, solve_equilibrium(potential, equilibrium.x, options, equilibrium.factor));
     if (equilibrium.converged()) {
       contact = check_contact(potential, scene, equilibrium.x);
     } else {

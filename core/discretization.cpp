@@ -53,7 +53,9 @@ std::vector<int> nested_dissection(const std::vector<std::set<int>>& neighbours)
 
 }  // namespace
 
-Discretization::Discretization(Mesh mesh, FactorBackend backend) : mesh_(std::move(mesh)) {
+Discretization::Discretization(Mesh mesh, FactorBackend backend,
+                               std::shared_ptr<const CoarseLevel> coarse)
+    : mesh_(std::move(mesh)), coarse_(std::move(coarse)) {
   for (int t = 0; t < mesh_.triangle_count(); ++t)
     if (!mesh_.triangle_is_fixed(t)) active_triangles_.push_back(t);
   order_free_vertices();

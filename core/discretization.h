@@ -16,9 +16,13 @@
 
 namespace drape {
 
+struct CoarseLevel;  // coarse_level.h
+
 class Discretization {
  public:
-  explicit Discretization(Mesh mesh, FactorBackend backend = default_factor_backend());
+  /// `coarse`: where drapes choose their branch; without it they do so on this mesh.
+  explicit Discretization(Mesh mesh, FactorBackend backend = default_factor_backend(),
+                          std::shared_ptr<const CoarseLevel> coarse = nullptr);
 
   const Mesh& mesh() const { return mesh_; }
   int free_vertex_count() const { return static_cast<int>(free_vertices_.size()); }
@@ -46,6 +50,8 @@ class Discretization {
   /// vertex): entry (r, c), r >= c, of the block. -1 for a fixed vertex.
   int diagonal_entry(int vertex, int r, int c) const;
   std::shared_ptr<const SymbolicFactor> symbolic_factor() const { return symbolic_; }
+  /// Null where there is none.
+  const CoarseLevel* coarse() const { return coarse_.get(); }
 
  private:
   void order_free_vertices();
@@ -63,6 +69,7 @@ class Discretization {
   std::vector<WingPlaces> wing_places_;
   SparseMatrix pattern_;
   std::shared_ptr<const SymbolicFactor> symbolic_;
+  std::shared_ptr<const CoarseLevel> coarse_;
 };
 
 }  // namespace drape

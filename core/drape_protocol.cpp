@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
+#include <utility>
 #include <vector>
 
+#include "core/coarse_level.h"
 #include "core/random.h"
 
 namespace drape {
@@ -12,10 +15,14 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kRampSteps = 16;
-constexpr double kRampStart = 0.02;     // first share of gravity
-constexpr double kRampNoise = 1e-6;     // [m]
-constexpr double kRampTolerance = 0.1;  // residual of a step, relative to its own gravity
-constexpr double kFoldDrop = 0.6;       // share of the overhang's slope taken by a folded start
+constexpr int kCoarseRampSteps = 8;
+constexpr double kRampStart = 0.02;      // first share of gravity
+constexpr double kRampNoise = 1e-6;      // [m]
+constexpr double kLooseTolerance = 0.1;  // residual of a step, relative to its own gravity
+constexpr double kSoftTolerance = 10;    // residual with a membrane that is too soft
+constexpr double kSoftStrain = 0.03;     // of the softest membrane under the overhang's weight
+constexpr double kStiffening = 10;       // from one membrane to the next
+constexpr double kFoldDrop = 0.6;        // share of the overhang's slope taken by a folded start
 constexpr int kOutlineSamples = 1440;
 
 /// A circular arc of length `length`, tangent to the horizontal at its start, whose horizontal
@@ -29,37 +36,113 @@ double arc_angle(double length, double reach) {
   return (low + high) / 2;
 }
 
-}  // namespace
+/// A gravity ramp from flat on the mesh of the potential.
+struct RampSteps {
+  int steps;
+  bool predicted;  ///< go on as the last step went
+};
 
-Equilibrium drape_by_ramp(const Potential& potential, std::uint64_t seed,
-                          const EquilibriumOptions& options) {
-  Potential ramp = potential;
-  ramp.set_guide(std::nullopt);
+Equilibrium ramp(Potential potential, const RampSteps& how, std::uint64_t seed,
+                 const EquilibriumOptions& options) {
   VecX x = flat_state(potential.mesh());
   Random random(seed);
   for (int v = 0; v < potential.mesh().vertex_count(); ++v)
     if (!potential.mesh().fixed[static_cast<size_t>(v)])
       for (int k = 0; k < 3; ++k) x[3 * v + k] += kRampNoise * random.uniform(-1, 1);
 
+  const double gravity = potential.gravity();
   Equilibrium result;
-  double cpu = 0;
-  int iterations = 0, factorizations = 0;
-  for (int i = 0; i < kRampSteps; ++i) {
-    const bool last = i == kRampSteps - 1;
+  VecX before;
+  for (int i = 0; i < how.steps; ++i) {
+    const bool last = i == how.steps - 1;
     EquilibriumOptions step = options;
-    step.max_iterations = options.max_iterations - iterations;
-    if (!last) step.tolerance = std::max(kRampTolerance, options.tolerance);
-    ramp.set_gravity(potential.gravity() *
-                     std::pow(kRampStart, 1 - static_cast<double>(i) / (kRampSteps - 1)));
-    result = solve_equilibrium(ramp, result.x.size() > 0 ? result.x : x, step);
-    cpu += result.cpu_seconds;
-    iterations += result.newton_iterations;
-    factorizations += result.factorizations;
-    if (!last && !result.converged() && result.status != EquilibriumStatus::saddle) break;
+    step.max_iterations -= result.newton_iterations;
+    step.certify = last && options.certify;
+    if (!last) step.tolerance = std::max(kLooseTolerance, options.tolerance);
+    potential.set_gravity(gravity *
+                          std::pow(kRampStart, 1 - static_cast<double>(i) / (how.steps - 1)));
+    const VecX start = how.predicted && i > 1 ? VecX(2 * x - before) : x;
+    Equilibrium next = solve_equilibrium(potential, start, step);
+    next.add_work_of(result);
+    result = std::move(next);
+    if (!result.converged()) break;
+    before = std::move(x);
+    x = result.x;
   }
-  result.cpu_seconds = cpu;
-  result.newton_iterations = iterations;
-  result.factorizations = factorizations;
+  return result;
+}
+
+/// Minimises from x with a membrane so soft that the overhang's weight strains it by kSoftStrain,
+/// then with stiffer ones up to the fabric's own: a stiff membrane follows its folds in tiny steps.
+Equilibrium stiffened(Potential potential, const Scene& scene, const VecX& x,
+                      const EquilibriumOptions& options) {
+  const Fabric fabric = potential.fabric();
+  const double tension = fabric.areal_density * potential.gravity() *
+                         (scene.specimen_radius - scene.support_radius);  // [N/m]
+  const double stiffest = std::max({fabric.k_u, fabric.k_v, fabric.k_h});
+  Equilibrium result;
+  result.x = x;
+  for (double most = tension / kSoftStrain;; most *= kStiffening) {
+    const bool last = 3 * most > stiffest;
+    EquilibriumOptions step = options;
+    step.max_iterations -= result.newton_iterations;
+    Fabric softened = fabric;
+    if (!last) {
+      step.certify = false;
+      step.tolerance = std::max(kSoftTolerance, options.tolerance);
+      for (Parameter k : {Parameter::k_u, Parameter::k_v, Parameter::k_h})
+        softened[k] = std::min(fabric[k], most);
+    }
+    potential.set_fabric(softened);
+    Equilibrium next = solve_equilibrium(potential, result.x, step);
+    next.add_work_of(result);
+    result = std::move(next);
+    if (last || !result.converged()) return result;
+  }
+}
+
+/// `choose` finds a state on the coarse mesh; the equilibrium on the mesh itself starts there.
+Equilibrium chosen_on_coarse_mesh(
+    const Potential& potential, const EquilibriumOptions& options,
+    const std::function<Equilibrium(const Potential&, const EquilibriumOptions&)>& choose) {
+  Potential fine = potential;
+  fine.set_guide(std::nullopt);
+  const CoarseLevel* level = potential.discretization().coarse();
+  if (level == nullptr) return choose(fine, options);
+
+  Potential coarse(level->discretization, potential.fabric(), potential.reading(),
+                   potential.gravity());
+  coarse.set_support(potential.support());
+  EquilibriumOptions loose = options;
+  loose.tolerance = std::max(kLooseTolerance, options.tolerance);
+  loose.certify = false;
+  Equilibrium chosen = choose(coarse, loose);
+  chosen.x = level->transfer(chosen.x);
+  if (!chosen.converged()) return chosen;
+  EquilibriumOptions rest = options;
+  rest.max_iterations -= chosen.newton_iterations;
+  Equilibrium result = solve_equilibrium(fine, chosen.x, rest);
+  result.add_work_of(chosen);
+  return result;
+}
+
+}  // namespace
+
+Equilibrium drape_by_coarse_ramp(const Potential& potential, std::uint64_t seed,
+                                 const EquilibriumOptions& options) {
+  Equilibrium result = chosen_on_coarse_mesh(
+      potential, options, [&](const Potential& coarse, const EquilibriumOptions& loose) {
+        return ramp(coarse, {.steps = kCoarseRampSteps, .predicted = true}, seed, loose);
+      });
+  result.protocol = "coarse_ramp";
+  return result;
+}
+
+Equilibrium drape_by_ramp(const Potential& potential, std::uint64_t seed,
+                          const EquilibriumOptions& options) {
+  Potential free = potential;
+  free.set_guide(std::nullopt);
+  Equilibrium result = ramp(free, {.steps = kRampSteps, .predicted = false}, seed, options);
   result.protocol = "ramp";
   return result;
 }
@@ -85,8 +168,10 @@ VecX folded_state(const Mesh& mesh, const Scene& scene, int lobes, double phase)
 
 Equilibrium drape_by_lobes(const Potential& potential, const Scene& scene, int lobes, double phase,
                            const EquilibriumOptions& options) {
-  Equilibrium result =
-      solve_equilibrium(potential, folded_state(potential.mesh(), scene, lobes, phase), options);
+  Equilibrium result = chosen_on_coarse_mesh(
+      potential, options, [&](const Potential& coarse, const EquilibriumOptions& loose) {
+        return stiffened(coarse, scene, folded_state(coarse.mesh(), scene, lobes, phase), loose);
+      });
   std::ostringstream protocol;
   protocol << "lobes(" << lobes << ", " << phase << ")";
   result.protocol = protocol.str();

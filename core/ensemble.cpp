@@ -43,7 +43,7 @@ std::string EnsembleStart::name() const {
   if (kind == Kind::lobes)
     text << "lobes(" << lobes << ", " << phase << ")";
   else
-    text << (kind == Kind::ramp ? "ramp" : "flat") << "(seed " << seed << ")";
+    text << (kind == Kind::ramp ? "coarse_ramp" : "flat") << "(seed " << seed << ")";
   return text.str();
 }
 
@@ -69,7 +69,7 @@ Equilibrium drape_from(const Potential& potential, const Scene& scene, const Ens
   Equilibrium result;
   switch (start.kind) {
     case EnsembleStart::Kind::ramp:
-      result = drape_by_ramp(potential, start.seed, options);
+      result = drape_by_coarse_ramp(potential, start.seed, options);
       break;
     case EnsembleStart::Kind::lobes:
       result = drape_by_lobes(potential, scene, start.lobes, start.phase, options);

@@ -19,13 +19,13 @@ constexpr double kRoundingSlack = 1e-13;  // energy differences below this share
 constexpr double kShortestStep = 1e-9;    // of a line search, over the direction
 
 // When the preconditioner is refreshed: it costs as much as about fifteen iterations.
-constexpr double kNear = 0.1;            // residual below which the true Hessian is tried
+constexpr double kNear = 0.1;              // residual below which the true Hessian is tried
 constexpr double kNearAfterRestart = 100;  // the same where a near-by solve lent its factor
-constexpr int kLongestUse = 25;          // iterations with one factor, far from equilibrium
-constexpr int kLongestUseNear = 60;      // and near it
-constexpr int kShortestUseNear = 8;      // iterations after which its contraction is judged
-constexpr double kIterationsWorth = 30;  // more iterations than these to go: refresh instead
-constexpr int kHardSearches = 3;         // line searches with several backtracks
+constexpr int kLongestUse = 25;            // iterations with one factor, far from equilibrium
+constexpr int kLongestUseNear = 60;        // and near it
+constexpr int kShortestUseNear = 8;        // iterations after which its contraction is judged
+constexpr double kIterationsWorth = 30;    // more iterations than these to go: refresh instead
+constexpr int kHardSearches = 3;           // line searches with several backtracks
 
 constexpr int kNoisePatience = 12;  // iterations below the noise of the energy without progress
 constexpr int kMaxStalls = 3;       // refreshes in a row that did not help
@@ -217,8 +217,7 @@ class Minimisation {
       }
       if (below_noise && backtracks > 3) return false;
       // the minimum of the parabola through energy, slope and the energy tried
-      const double parabola =
-          -slope * step * step / (2 * (energy - result_.energy - slope * step));
+      const double parabola = -slope * step * step / (2 * (energy - result_.energy - slope * step));
       step = std::clamp(parabola, step / 10, step / 2);
     }
     return false;

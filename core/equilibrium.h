@@ -3,10 +3,10 @@
 // L-BFGS whose initial matrix is a Cholesky factor of the blended Hessian H(a), that is the Hessian
 // with its negative geometric parts scaled by 1 - a. The factor is refreshed rarely: it costs as
 // much as fifteen iterations. Far from equilibrium a = 1, which always has a factor; near it a is
-// as small as the factorisation allows, so that the end is Newton's own. A state counts as converged
-// when its residual is at most the tolerance (or the rounding floor, whichever is larger) and the
-// true Hessian has a Cholesky factor: the certificate that it is a minimum. At a saddle the solver
-// leaves along a direction of negative curvature.
+// as small as the factorisation allows, so that the end is Newton's own. A state counts as
+// converged when its residual is at most the tolerance (or the rounding floor, whichever is larger)
+// and the true Hessian has a Cholesky factor: the certificate that it is a minimum. At a saddle the
+// solver leaves along a direction of negative curvature.
 #pragma once
 
 #include <memory>
@@ -50,6 +50,13 @@ struct Equilibrium {
   std::shared_ptr<const SparseFactor> factor;
   /// The last factor there was, to start a solve near by; `factor` where that is not null.
   std::shared_ptr<const SparseFactor> preconditioner;
+
+  /// Adds the counts and times of solves that led here.
+  void add_work_of(const Equilibrium& earlier) {
+    newton_iterations += earlier.newton_iterations;
+    factorizations += earlier.factorizations;
+    cpu_seconds += earlier.cpu_seconds;
+  }
 
   bool converged() const { return status == EquilibriumStatus::converged; }
 };

@@ -31,9 +31,7 @@ Equilibrium drape_guided(const Potential& potential, const Scene& scene, Guide g
       released.set_guide(guide);
     }
     Equilibrium next = solve_equilibrium(released, result.x, options);
-    next.newton_iterations += result.newton_iterations;
-    next.factorizations += result.factorizations;
-    next.cpu_seconds += result.cpu_seconds;
+    next.add_work_of(result);
     next.protocol = std::move(result.protocol);
     result = std::move(next);
   }

@@ -27,7 +27,7 @@ struct ContinuationOptions {
   double noise = 2e-5;              ///< deviations below this are never a snap [m]
   int halvings = 7;                 ///< how often a step is halved before the branch counts as lost
   double largest_leap = 10;         ///< a path with a larger change of an unknown is not tried
-  EquilibriumOptions equilibrium{.tolerance = 1e-8, .max_iterations = 80};
+  EquilibriumOptions equilibrium{.tolerance = 1e-8, .max_iterations = 600};
 };
 
 /// The sensitivities of a converged equilibrium make it a point to continue from.

@@ -23,7 +23,7 @@ std::vector<std::string> names_of<FactorBackend>() {
 }
 template <>
 std::vector<std::string> names_of<StartProtocol>() {
-  return {"ramp", "lobes", "lowering", "guided", "ensemble"};
+  return {"coarse_ramp", "lobes", "ramp", "lowering", "guided", "ensemble"};
 }
 template <>
 std::vector<std::string> names_of<ContactMode>() {
@@ -162,17 +162,16 @@ std::vector<ConfigKey> make_keys() {
   add("solver", "tolerance", "", {0, 1, false},
       "Relative residual at rest: largest nodal force over largest nodal weight.",
       MEMBER(solver.tolerance));
-  add("solver", "max_iterations", "", at_least(1), "Newton iterations of one solve at most.",
+  add("solver", "max_iterations", "", at_least(1), "Iterations of one solve at most.",
       MEMBER(solver.max_iterations));
   add("solver", "factorization", "", kAny,
       "Sparse factorisation: CHOLMOD supernodal with METIS, or Eigen's LDLT (slower, for checks).",
       MEMBER(solver.factorization));
 
   add("start", "protocol", "", kAny,
-      "How one of the many equilibria is chosen: gravity ramp from flat, a start folded into "
-      "lobes, "
-      "a plate lowered from under it, a given outline, or the lowest in energy of an ensemble of "
-      "starts.",
+      "How one of the many equilibria is chosen: gravity ramp from flat on a coarse mesh, a start "
+      "folded into lobes, the ramp in careful steps on the mesh itself, a plate lowered from under "
+      "it, a given outline, or the lowest in energy of an ensemble of starts.",
       MEMBER(start.protocol));
   add("start", "lobes", "", {1, 60, true}, "Number of lobes of the folded start.",
       MEMBER(start.lobes));

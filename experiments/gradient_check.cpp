@@ -101,7 +101,7 @@ class CheckedOutlineLoss {
 Equilibrium solve_to_floor(const Potential& potential, const VecX& x) {
   EquilibriumOptions options;
   options.tolerance = 0;
-  options.max_iterations = 100;
+  options.max_iterations = 1000;
   Equilibrium equilibrium = solve_equilibrium(potential, x, options);
   if (equilibrium.converged()) return equilibrium;
   options.tolerance = 2 * potential.rounding_floor(equilibrium.x);

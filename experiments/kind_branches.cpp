@@ -56,7 +56,7 @@ class BranchRun {
     const double begin = thread_cpu_seconds();
     const Equilibrium drape =
         lobes_ > 0 ? drape_by_lobes(potential_, settings_.scene, lobes_, 0, options_.equilibrium)
-                   : drape_by_ramp(potential_, settings_.start.seed, options_.equilibrium);
+                   : drape_by_coarse_ramp(potential_, settings_.start.seed, options_.equilibrium);
     status_ = name(drape.status);
     if (drape.converged()) {
       BranchState state = make_branch_state(potential_, path_, softest_, drape);
@@ -179,7 +179,7 @@ RunOutcome run_branches(const Settings& settings, OutputFolder& folder) {
   std::vector<int> starts = settings.branches.lobes;
   if (settings.branches.ramp) starts.insert(starts.begin(), 0);
   const auto start_name = [](int lobes) {
-    return lobes > 0 ? "lobes " + std::to_string(lobes) : std::string("ramp");
+    return lobes > 0 ? "lobes " + std::to_string(lobes) : std::string("coarse_ramp");
   };
   const int count = static_cast<int>(starts.size());
   const auto discretization = make_discretization(settings);

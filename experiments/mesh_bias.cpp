@@ -24,10 +24,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kBiasFabrics = 6;  // isotropic and with a stiff weft
-constexpr StartProtocol kProtocols[] = {StartProtocol::lobes, StartProtocol::ramp};
+constexpr StartProtocol kProtocols[] = {StartProtocol::lobes, StartProtocol::coarse_ramp};
 
 std::string protocol_name(StartProtocol protocol) {
-  return protocol == StartProtocol::lobes ? "lobes" : "ramp";
+  return protocol == StartProtocol::lobes ? "lobes" : "coarse_ramp";
 }
 
 std::string item_name(int vertices, int seed, int rotation, int fabric, StartProtocol protocol) {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/disc_mesh.h"
+#include "core/coarse_level.h"
 #include "core/drape_protocol.h"
 #include "core/guided.h"
 #include "core/lowering.h"
@@ -32,8 +32,7 @@ std::shared_ptr<const Discretization> make_discretization(const Settings& settin
   options.seed = settings.mesh.seed;
   options.rotation = settings.mesh.rotation;
   options.clamp_wing_factor = settings.mesh.clamp_wing_factor;
-  return std::make_shared<const Discretization>(make_disc_mesh(settings.scene, options),
-                                                settings.solver.factorization);
+  return make_disc(settings.scene, options, settings.solver.factorization);
 }
 
 Potential make_potential(std::shared_ptr<const Discretization> discretization, const Fabric& fabric,
@@ -54,6 +53,8 @@ Equilibrium drape_by_protocol(const Settings& settings, const Potential& potenti
   const StartSettings& start = settings.start;
   const EquilibriumOptions options = equilibrium_options(settings);
   switch (start.protocol) {
+    case StartProtocol::coarse_ramp:
+      return drape_by_coarse_ramp(potential, start.seed, options);
     case StartProtocol::ramp:
       return drape_by_ramp(potential, start.seed, options);
     case StartProtocol::lobes:

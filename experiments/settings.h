@@ -57,14 +57,14 @@ struct MeshSettings {
 
 struct SolverSettings {
   double tolerance = 1e-8;  ///< relative residual
-  int max_iterations = 5000;
+  int max_iterations = 20000;
   FactorBackend factorization = default_factor_backend();
 };
 
-enum class StartProtocol { ramp, lobes, lowering, guided, ensemble };
+enum class StartProtocol { coarse_ramp, lobes, ramp, lowering, guided, ensemble };
 
 struct StartSettings {
-  StartProtocol protocol = StartProtocol::ramp;
+  StartProtocol protocol = StartProtocol::coarse_ramp;
   int lobes = 6;
   double phase = 0;               ///< direction of the first lobe from +x [rad]
   std::uint64_t seed = 1;         ///< of the noise of ramp, lowering and ensemble
