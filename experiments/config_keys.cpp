@@ -10,8 +10,8 @@ namespace drape {
 
 template <>
 std::vector<std::string> names_of<Kind>() {
-  return {"drape",      "dataset",    "estimate",   "photograph", "gradient_check",
-          "robustness", "quickstart", "validation", "accuracy",   "branches"};
+  return {"drape",      "dataset",    "estimate", "photograph", "gradient_check",
+          "robustness", "quickstart", "branches", "validation", "accuracy"};
 }
 template <>
 std::vector<std::string> names_of<MeshKind>() {

@@ -28,9 +28,9 @@ enum class Kind {
   gradient_check,
   robustness,
   quickstart,
+  branches,
   validation,
-  accuracy,
-  branches
+  accuracy
 };
 
 struct Experiment {

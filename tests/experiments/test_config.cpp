@@ -56,7 +56,8 @@ ConfigValue another_value(const ConfigKey& key) {
     case ValueType::path:
       return std::string("/tables/a \"b\"\\\tc.csv");
     case ValueType::integers:
-      return std::vector<std::int64_t>{5000, 300};
+      return key.range.contains(5000) ? std::vector<std::int64_t>{5000, 300}
+                                      : std::vector<std::int64_t>{50, 3};
     case ValueType::numbers:
       return std::vector<double>{1e-3 / 3, 1e-7};
     case ValueType::choices:
@@ -157,8 +158,8 @@ TEST(Config, RangesOnBothSidesOfTheirEnds) {
             "f.toml:2:8: fabric.k_bu = -2e-06: must be a finite number > 0 N m");
   EXPECT_EQ(
       error_of("[start]\nprotocol = 'rump'"),
-      "f.toml:2:12: start.protocol = \"rump\": must be one of \"ramp\", \"lobes\"; did you mean "
-      "'ramp'?");
+      "f.toml:2:12: start.protocol = \"rump\": must be one of \"ramp\", \"lobes\", \"lowering\", "
+      "\"guided\", \"ensemble\"; did you mean 'ramp'?");
 }
 
 TEST(Config, Lists) {
