@@ -144,9 +144,8 @@ std::vector<ConfigKey> make_keys() {
       "Radius of the column below that disc, at most support_radius; 0 for the same.",
       MEMBER(scene.column_radius));
   add("scene", "contact", "", kAny,
-      "Contact with the column: \"auto\" solves again with it where a drape would be more than 1 "
-      "mm inside, \"support\" always solves with it, \"off\" only looks. Branches are followed "
-      "without it under \"auto\".",
+      "Contact with the column: \"auto\" solves again with it where a drape is more than 1 mm "
+      "inside (branches: never), \"support\" always solves with it, \"off\" only looks.",
       MEMBER(contact));
 
   add("mesh", "vertices", "", kVertices, "Number of vertices aimed at, fixed ring included.",
