@@ -101,6 +101,17 @@ Equilibrium stiffened(Potential potential, const Scene& scene, const VecX& x,
   }
 }
 
+/// A failure at less gravity, with a softer membrane or on another mesh ends a protocol: what is
+/// said of its state is to be true of the potential asked for.
+Equilibrium restated(const Potential& potential, Equilibrium result) {
+  if (result.converged()) return result;
+  VecX gradient;
+  result.energy = potential.energy_and_gradient(result.x, gradient);
+  result.residual = potential.residual(gradient);
+  result.rounding_floor = potential.rounding_floor(result.x);
+  return result;
+}
+
 /// `choose` finds a state on the coarse mesh; the equilibrium on the mesh itself starts there.
 Equilibrium chosen_on_coarse_mesh(
     const Potential& potential, const EquilibriumOptions& options,
@@ -108,7 +119,7 @@ Equilibrium chosen_on_coarse_mesh(
   Potential fine = potential;
   fine.set_guide(std::nullopt);
   const CoarseLevel* level = potential.discretization().coarse();
-  if (level == nullptr) return choose(fine, options);
+  if (level == nullptr) return restated(fine, choose(fine, options));
 
   Potential coarse(level->discretization, potential.fabric(), potential.reading(),
                    potential.gravity());
@@ -118,7 +129,10 @@ Equilibrium chosen_on_coarse_mesh(
   loose.certify = false;
   Equilibrium chosen = choose(coarse, loose);
   chosen.x = level->transfer(chosen.x);
-  if (!chosen.converged()) return chosen;
+  if (!chosen.converged()) {
+    chosen.preconditioner = nullptr;  // of the coarse mesh
+    return restated(fine, std::move(chosen));
+  }
   EquilibriumOptions rest = options;
   rest.max_iterations -= chosen.newton_iterations;
   Equilibrium result = solve_equilibrium(fine, chosen.x, rest);
@@ -142,7 +156,8 @@ Equilibrium drape_by_ramp(const Potential& potential, std::uint64_t seed,
                           const EquilibriumOptions& options) {
   Potential free = potential;
   free.set_guide(std::nullopt);
-  Equilibrium result = ramp(free, {.steps = kRampSteps, .predicted = false}, seed, options);
+  Equilibrium result =
+      restated(free, ramp(free, {.steps = kRampSteps, .predicted = false}, seed, options));
   result.protocol = "ramp";
   return result;
 }

@@ -76,7 +76,9 @@ class Minimisation {
         result_.factor = preconditioner_;
         return;
       }
-      result_.negative_eigenvalues = negative_eigenvalues(hessian_);
+      // none counted where Cholesky's factorisation broke down is rounding: not known
+      const int negative = negative_eigenvalues(hessian_);
+      result_.negative_eigenvalues = negative > 0 ? negative : -1;
       if (++saddles > kMaxSaddles || !leave_saddle()) {
         result_.status = EquilibriumStatus::saddle;
         return;
@@ -231,7 +233,7 @@ class Minimisation {
     if (!below_noise || residual < 0.9 * best_residual_) {
       noisy_steps_ = 0;
       best_residual_ = residual;
-      if (below_noise) best_x_ = result_.x;
+      best_x_ = result_.x;
     } else {
       ++noisy_steps_;
     }
@@ -288,6 +290,7 @@ class Minimisation {
         if (!(potential_.energy(trial) < result_.energy)) continue;
         result_.x = trial;
         evaluate();
+        result_.negative_eigenvalues = -1;
         factor_is_old_ = true;
         return true;
       }

@@ -42,9 +42,9 @@ struct Equilibrium {
   double energy = 0;          ///< [J]
   int newton_iterations = 0;  ///< preconditioned L-BFGS iterations
   int factorizations = 0;
-  int negative_eigenvalues = 0;  ///< of the true Hessian at x: 0 certified; -1 not known
-  double cpu_seconds = 0;        ///< of this thread
-  std::string protocol;          ///< how the start was chosen, see drape_protocol.h
+  int negative_eigenvalues = -1;  ///< of the true Hessian at x: 0 certified; -1 not known
+  double cpu_seconds = 0;         ///< of this thread
+  std::string protocol;           ///< how the start was chosen, see drape_protocol.h
   /// Factor of the true Hessian at x; null unless converged and certified. Not for two threads at
   /// a time.
   std::shared_ptr<const SparseFactor> factor;

@@ -41,9 +41,13 @@ TEST(DrapeProtocol, RampIsNamedConvergedAndDeterministic) {
 }
 
 TEST(DrapeProtocol, RampStopsAtTheIterationLimitOfAllStepsTogether) {
-  const Equilibrium a = drape_by_ramp(potential(medium_fabric()), 1, {.max_iterations = 5});
+  const Potential E = potential(medium_fabric());
+  const Equilibrium a = drape_by_ramp(E, 1, {.max_iterations = 5});
   EXPECT_EQ(a.status, EquilibriumStatus::iteration_limit);
   EXPECT_EQ(a.newton_iterations, 5);
+  // at the whole of gravity, although the ramp ended below it
+  EXPECT_EQ(a.energy, E.energy(a.x));
+  EXPECT_EQ(a.residual, E.residual(E.gradient(a.x)));
 }
 
 TEST(DrapeProtocol, FoldedStateHasItsLobes) {
