@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
-#include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include "core/drape_protocol.h"
 #include "core/equilibrium.h"
@@ -93,72 +91,62 @@ TEST(Equilibrium, BothFactorisationsGiveTheSameDrape) {
 }
 #endif
 
-TEST(Equilibrium, LeavesASaddle) {
-  // flat, clamped at both ends and compressed along its length: Euler's column
-  const Mesh column = strip(0.06, 0.01, 2);
-  std::vector<std::uint8_t> fixed = column.fixed;
-  const double end = column.rest_uv.col(0).maxCoeff();
-  for (int v = 0; v < column.vertex_count(); ++v)
-    if (column.rest_uv(v, 0) > end - 1e-9) fixed[static_cast<size_t>(v)] = 1;
-  const auto d =
-      std::make_shared<const Discretization>(make_mesh(column.rest_uv, column.triangles, fixed));
-  Potential E(d, stiff_fabric(), {}, 1e-9);  // weight sets the scale of residuals only
-  VecX x = flat_state(d->mesh());
-  for (int v = 0; v < d->mesh().vertex_count(); ++v)
-    if (x[3 * v] > 0) x[3 * v] *= 0.98;
-  EquilibriumOptions loose{.tolerance = 1e3};
-  const Equilibrium buckled = solve_equilibrium(E, x, loose);
-  ASSERT_TRUE(buckled.converged()) << name(buckled.status);
-  double rise = 0;
-  for (int v = 0; v < d->mesh().vertex_count(); ++v)
-    rise = std::max(rise, std::abs(buckled.x[3 * v + 2]));
-  // inextensible clamped column: end shortening (pi rise / length)^2 / 4 = 0.02
-  EXPECT_NEAR(rise, 2 * std::sqrt(0.02) / M_PI * end, 0.1 * rise);
-}
-
-TEST(Equilibrium, TheSymmetricFlatDiscFindsAMinimum) {
-  const Potential E = potential(small_disc(), medium_fabric());
-  const Equilibrium drape = solve_equilibrium(E, flat_state(small_disc()->mesh()));
-  ASSERT_TRUE(drape.converged()) << name(drape.status) << " " << drape.residual;
-  EXPECT_EQ(drape.negative_eigenvalues, 0);
-  EXPECT_LT(drape.energy, 0);  // gravity's work exceeds the strain energy
-}
-
-TEST(Equilibrium, ReportsTheIterationLimit) {
-  const Potential E = potential(small_disc(), medium_fabric());
-  const Equilibrium drape = solve_equilibrium(E, folded_state(small_disc()->mesh(), kCusick, 5, 0),
-                                              {.max_iterations = 2});
-  EXPECT_EQ(drape.status, EquilibriumStatus::iteration_limit);
-  EXPECT_FALSE(drape.converged());
-  EXPECT_EQ(drape.newton_iterations, 2);
-  EXPECT_EQ(drape.factor, nullptr);
-  EXPECT_GT(drape.residual, 1e-8);
-  EXPECT_THROW(smallest_eigenvalue(drape), std::invalid_argument);
-}
-
-TEST(Equilibrium, ReportsAStartThatIsNotFinite) {
-  const Potential E = potential(small_disc(), medium_fabric());
-  VecX x = flat_state(small_disc()->mesh());
-  x[3 * small_disc()->free_vertices()[0]] = std::numeric_limits<double>::quiet_NaN();
-  const Equilibrium drape = solve_equilibrium(E, x);
-  EXPECT_EQ(drape.status, EquilibriumStatus::non_finite);
-  EXPECT_EQ(drape.factor, nullptr);
-}
-
 TEST(Equilibrium, WithoutCertificateThereIsNoFactor) {
   const Potential E = potential(small_disc(), stiff_fabric());
   const Equilibrium drape = drape_by_lobes(E, kCusick, 4, 0, {.certify = false});
   EXPECT_TRUE(drape.converged());
   EXPECT_EQ(drape.factor, nullptr);
+  EXPECT_EQ(drape.negative_eigenvalues, -1);
 }
 
-TEST(Equilibrium, RoundingFloorBoundsAnImpossibleTolerance) {
-  const Potential E = potential(small_disc(), stiff_fabric());
-  const Equilibrium drape = drape_by_lobes(E, kCusick, 4, 0, {.tolerance = 1e-30});
-  ASSERT_TRUE(drape.converged()) << name(drape.status) << ", residual " << drape.residual;
-  EXPECT_GT(drape.rounding_floor, 0);
-  EXPECT_LE(drape.residual, drape.rounding_floor);
-  EXPECT_LT(drape.rounding_floor, 1e-8);
+TEST(Equilibrium, ANearbyFactorSavesFactorisations) {
+  const EquilibriumOptions tight{.tolerance = 1e-9};
+  for (Fabric fabric : {stiff_fabric(), medium_fabric()}) {
+    Potential E = potential(small_disc(), fabric);
+    const Equilibrium first = drape_by_lobes(E, kCusick, 5, 0, tight);
+    ASSERT_TRUE(first.converged());
+    ASSERT_EQ(first.preconditioner, first.factor);
+    Random random(1);
+    const VecX b = random_vector(first.factor->size(), random);
+    const VecX before = first.factor->solve(b);
+
+    for (const Parameter k : {Parameter::k_bu, Parameter::k_bv, Parameter::k_bh}) fabric[k] *= 1.03;
+    E.set_fabric(fabric);
+    const Equilibrium cold = solve_equilibrium(E, first.x, tight);
+    const Equilibrium warm = solve_equilibrium(E, first.x, tight, first.preconditioner);
+    ASSERT_TRUE(cold.converged());
+    ASSERT_TRUE(warm.converged());
+    EXPECT_GT((cold.x - first.x).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LE((cold.x - warm.x).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT(warm.factorizations, cold.factorizations);
+    // the factor that was lent is as it was, and the result's own one is another
+    EXPECT_EQ(first.factor->solve(b), before);
+    EXPECT_NE(warm.factor, first.factor);
+    EXPECT_NE(VecX(warm.factor->solve(b)), before);
+  }
+}
+
+TEST(Equilibrium, ThreadsDoNotChangeABit) {
+  const auto drape = [](const Fabric& fabric) {
+    return drape_by_lobes(potential(small_disc(), fabric), kCusick, 5, 0);
+  };
+  const std::vector<Fabric> fabrics = {stiff_fabric(), medium_fabric()};
+  std::vector<Equilibrium> alone, together(2);
+  for (const Fabric& fabric : fabrics) alone.push_back(drape(fabric));
+  {
+    std::vector<std::thread> threads;
+    for (size_t i = 0; i < 2; ++i)
+      threads.emplace_back([&, i] { together[i] = drape(fabrics[i]); });
+    for (std::thread& thread : threads) thread.join();
+  }
+  for (size_t i = 0; i < 2; ++i) {
+    ASSERT_TRUE(alone[i].converged());
+    EXPECT_EQ(together[i].x, alone[i].x);
+    EXPECT_EQ(together[i].energy, alone[i].energy);
+    EXPECT_EQ(together[i].residual, alone[i].residual);
+    EXPECT_EQ(together[i].newton_iterations, alone[i].newton_iterations);
+    EXPECT_EQ(together[i].factorizations, alone[i].factorizations);
+  }
 }
 
 }  // namespace
