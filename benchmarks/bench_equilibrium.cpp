@@ -36,7 +36,8 @@ void drape_warm(benchmark::State& state) {
   Potential potential = drape->potential;
   potential.set_fabric(stiffer);
   Equilibrium equilibrium;
-  for (auto _ : state) equilibrium = solve_equilibrium(potential, drape->equilibrium.x);
+  for (auto _ : state)
+    equilibrium = solve_equilibrium(potential, drape->equilibrium.x, {}, drape->equilibrium.factor);
   report_solve(state, potential, equilibrium);
 }
 

@@ -17,7 +17,7 @@ TEST(Ensemble, StartsAreCountedAndNamed) {
   std::set<std::string> names;
   for (const EnsembleStart& start : starts) names.insert(start.name());
   EXPECT_EQ(names.size(), starts.size());
-  EXPECT_TRUE(names.contains("ramp(seed 1)"));
+  EXPECT_TRUE(names.contains("coarse_ramp(seed 1)"));
   EXPECT_TRUE(names.contains("lobes(3, 0)"));
   EXPECT_TRUE(names.contains("flat(seed 5)"));
   EXPECT_THROW(ensemble_starts({.ramps = 0, .phases = 0, .flats = 0}), std::invalid_argument);

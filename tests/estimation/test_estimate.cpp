@@ -129,7 +129,7 @@ TEST(Estimate, ContactIsDecidedAtTheStartAndHeld) {
   OutlineObservation seen;
   seen.profile.resize(kProfileSize);
   for (int i = 0; i < kProfileSize; ++i)
-    seen.profile[i] = 0.104 + 0.012 * std::cos(6 * 2 * M_PI * i / kProfileSize);
+    seen.profile[i] = 0.097 + 0.012 * std::cos(6 * 2 * M_PI * i / kProfileSize);
   const Potential model(disc(300), soft_fabric(), {}, kCusick.gravity);
   EstimateOptions options;
   options.parameters = {Parameter::k_bh};

@@ -179,7 +179,8 @@ TEST(Config, RangesOnBothSidesOfTheirEnds) {
             "f.toml:2:8: fabric.k_bu = -2e-06: must be a finite number > 0 N m");
   EXPECT_EQ(error_of("[start]\nprotocol = 'rump'"),
             "f.toml:2:12: start.protocol = \"rump\": must be one of \"coarse_ramp\", \"lobes\", "
-            "\"ramp\", \"lowering\", \"guided\", \"ensemble\"; did you mean 'ramp'?");
+            "\"ramp\", "
+            "\"lowering\", \"guided\", \"ensemble\"; did you mean 'ramp'?");
 }
 
 TEST(Config, Lists) {
