@@ -109,11 +109,10 @@ Resolution climb(int rung_count, double tolerance,
         return result;
       }
     // the mesh decides, on this rung and on those before
-    const auto scattered = [&](const Rung& on) {
-      return !on.other_mesh_same_branch || !(on.scatter <= tolerance);
-    };
+    const auto lost = [](const Rung& on) { return !on.same_branch || !on.other_mesh_same_branch; };
+    const auto scattered = [&](const Rung& on) { return lost(on) || !(on.scatter <= tolerance); };
     if (i >= 2 && std::all_of(rungs.end() - 3, rungs.end(), scattered) &&
-        !(rung.scatter < kShrinking * rungs[static_cast<size_t>(i) - 2].scatter)) {
+        (lost(rung) || !(rung.scatter < kShrinking * rungs[static_cast<size_t>(i) - 2].scatter))) {
       result.status = ResolutionStatus::limited_by_mesh_scatter;
       return result;
     }
