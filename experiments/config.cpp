@@ -132,6 +132,9 @@ ConfigValue value_of(const ConfigKey& key, const toml::node& node,
       refuse_type(key, node);
     case ValueType::integer:
       return integer(key, node);
+    case ValueType::integer_or_auto:
+      if (node.value_exact<std::string>() == kAuto) return std::string(kAuto);
+      return integer(key, node);
     case ValueType::number:
       return number(key, node);
     case ValueType::choice:
@@ -228,8 +231,9 @@ void assign(Loaded& loaded, const Assignment& assignment) {
   const ConfigKey* key = find_key(section, key_name);
   if (!key) refuse(unknown_key_message(section, key_name));
 
-  const bool is_text = key->type == ValueType::choice || key->type == ValueType::path;
   const std::string& value = assignment.value;
+  const bool is_text = key->type == ValueType::choice || key->type == ValueType::path ||
+                       (key->type == ValueType::integer_or_auto && value == kAuto);
   const bool quoted = !value.empty() && (value.front() == '"' || value.front() == '\'');
   std::string text = is_text && !quoted ? format_value(value) : value;
   if (key->type == ValueType::number && value.starts_with('.')) text.insert(0, "0");
@@ -306,6 +310,14 @@ void check_together(const Loaded& loaded, const std::string& name) {
     } catch (const std::invalid_argument& error) {
       refuse("start.protocol", error.what());
     }
+  if (!settings.mesh.vertices && kind != Kind::drape)
+    refuse("mesh.vertices",
+           "mesh.vertices = \"auto\" is only for kind \"drape\"; this kind of experiment needs a "
+           "count, as "
+           "all that it compares is on one mesh");
+  if (!settings.mesh.vertices && settings.start.protocol == StartProtocol::ensemble)
+    refuse("mesh.vertices",
+           "mesh.vertices = \"auto\" follows one drape; an ensemble needs a count");
   if (kind == Kind::branches && !(settings.branches.softest < settings.branches.stiffest))
     refuse("branches.softest", "branches.softest must be less than branches.stiffest");
   const bool only_forward = kind == Kind::drape || kind == Kind::dataset ||

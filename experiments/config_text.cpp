@@ -160,6 +160,8 @@ std::string allowed_text(const ConfigKey& key) {
       return "true or false";
     case ValueType::integer:
       return "a whole number" + range;
+    case ValueType::integer_or_auto:
+      return "a whole number" + range + ", or " + format(std::string(kAuto));
     case ValueType::number:
       return "a finite number" + range;
     case ValueType::choice:

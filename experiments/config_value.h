@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -13,7 +14,20 @@ namespace drape {
 
 /// What a key's value is in the file. A choice is a text out of a fixed list; a path is a text that
 /// names an existing file, relative to the folder of the config file.
-enum class ValueType { boolean, integer, number, choice, path, integers, numbers, choices };
+enum class ValueType {
+  boolean,
+  integer,
+  integer_or_auto,
+  number,
+  choice,
+  path,
+  integers,
+  numbers,
+  choices
+};
+
+/// What a value of type integer_or_auto is where the program is to choose.
+inline constexpr const char* kAuto = "auto";
 
 /// A value on its way between file and Settings (choices and paths as text).
 using ConfigValue = std::variant<bool, std::int64_t, double, std::string, std::vector<std::int64_t>,
@@ -52,6 +66,19 @@ struct Conversion<Integer, std::enable_if_t<std::is_integral_v<Integer>>> {
   static ConfigValue to_value(Integer member) { return static_cast<std::int64_t>(member); }
   static Integer from_value(const ConfigValue& value) {
     return static_cast<Integer>(std::get<std::int64_t>(value));
+  }
+};
+
+/// No value is "auto".
+template <>
+struct Conversion<std::optional<int>> {
+  static constexpr ValueType kType = ValueType::integer_or_auto;
+  static ConfigValue to_value(const std::optional<int>& member) {
+    return member ? ConfigValue(std::int64_t{*member}) : ConfigValue(std::string(kAuto));
+  }
+  static std::optional<int> from_value(const ConfigValue& value) {
+    const auto* count = std::get_if<std::int64_t>(&value);
+    return count ? std::optional(static_cast<int>(*count)) : std::nullopt;
   }
 };
 

@@ -19,6 +19,13 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+DiscMeshOptions mesh_options(const Settings& settings, int vertices) {
+  return {.vertices = vertices,
+          .seed = settings.mesh.seed,
+          .rotation = settings.mesh.rotation,
+          .clamp_wing_factor = settings.mesh.clamp_wing_factor};
+}
+
 Observation nothing_seen(const PixelGrid& grid) {
   return {VecX::Constant(kProfileSize, kNaN), CoverageImage::Zero(grid.rows, grid.columns), kNaN,
           0};
@@ -27,12 +34,9 @@ Observation nothing_seen(const PixelGrid& grid) {
 }  // namespace
 
 std::shared_ptr<const Discretization> make_discretization(const Settings& settings, int vertices) {
-  DiscMeshOptions options;
-  options.vertices = vertices > 0 ? vertices : settings.mesh.vertices;
-  options.seed = settings.mesh.seed;
-  options.rotation = settings.mesh.rotation;
-  options.clamp_wing_factor = settings.mesh.clamp_wing_factor;
-  return make_disc(settings.scene, options, settings.solver.factorization);
+  return make_disc(settings.scene,
+                   mesh_options(settings, vertices > 0 ? vertices : settings.mesh.vertices.value()),
+                   settings.solver.factorization);
 }
 
 Potential make_potential(std::shared_ptr<const Discretization> discretization, const Fabric& fabric,
@@ -83,6 +87,21 @@ ContactDrape drape(const Settings& settings, Potential& potential,
                    const std::function<Equilibrium(const Potential&)>& from) {
   return drape_with_contact(potential, settings.scene, settings.contact, from,
                             equilibrium_options(settings));
+}
+
+ResolvedDrape drape_resolved(const Settings& settings) {
+  const ResolutionOptions resolution{.tolerance = settings.mesh.tolerance / 100};
+  const DiscMeshOptions mesh = mesh_options(settings, resolution.vertices.front());
+  return drape_resolved(
+      settings.scene, mesh,
+      [&](const DiscMeshOptions& size) {
+        return make_potential(
+            std::make_shared<const Discretization>(make_disc_mesh(settings.scene, size),
+                                                   settings.solver.factorization),
+            settings.fabric, settings);
+      },
+      settings.contact, [&](const Potential& of) { return drape_by_protocol(settings, of); },
+      resolution, equilibrium_options(settings));
 }
 
 EnsembleOptions ensemble_options(const Settings& settings) {

@@ -13,11 +13,13 @@
 #include "core/equilibrium.h"
 #include "core/potential.h"
 #include "core/records.h"
+#include "core/resolution.h"
 #include "experiments/settings.h"
 
 namespace drape {
 
-/// The specimen's mesh and all that depends on it alone. `vertices` overrides mesh.vertices.
+/// The specimen's mesh and all that depends on it alone. `vertices` overrides mesh.vertices, which
+/// must be a count otherwise.
 std::shared_ptr<const Discretization> make_discretization(const Settings& settings,
                                                           int vertices = 0);
 
@@ -33,6 +35,9 @@ ContactDrape drape(const Settings& settings, Potential& potential);
 /// The same from another start: `from` takes the place of the protocol.
 ContactDrape drape(const Settings& settings, Potential& potential,
                    const std::function<Equilibrium(const Potential&)>& from);
+
+/// The same on a mesh as fine as the drape needs, by mesh.tolerance.
+ResolvedDrape drape_resolved(const Settings& settings);
 
 EnsembleOptions ensemble_options(const Settings& settings);
 

@@ -1,11 +1,13 @@
 // All settings of an experiment with their defaults, as plain structs in SI units.
 //
-// The table in config_keys.cpp ties every member to a key of the config file, with its unit, range
-// and meaning: `drape explain` prints it. A member without a row there cannot be set by a user.
+// The tables of config_common_keys.cpp and config_keys_of_kinds.cpp tie every member to a key of
+// the config file, with its unit, range and meaning: `drape explain` prints them. A member without
+// a row there cannot be set by a user.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -48,7 +50,8 @@ struct Experiment {
 enum class MeshKind { isotropic };
 
 struct MeshSettings {
-  int vertices = 2000;
+  std::optional<int> vertices = 2000;  ///< none: "auto", as many as the drape needs
+  double tolerance = 0.5;              ///< of "auto" [points of drape coefficient]
   MeshKind kind = MeshKind::isotropic;
   std::uint64_t seed = 1;
   double rotation = 0;  ///< of the mesh under the fabric [rad]

@@ -49,6 +49,8 @@ ConfigValue another_value(const ConfigKey& key) {
       return !std::get<bool>(value);
     case ValueType::integer:
       return std::get<std::int64_t>(value) + 3;
+    case ValueType::integer_or_auto:
+      return std::string(kAuto);
     case ValueType::number:
       return key.range.contains(0.1 + 0.2) ? 0.1 + 0.2 : 100. / 3;
     case ValueType::choice:
@@ -104,6 +106,24 @@ TEST(Config, KeysReachTheirMembers) {
   EXPECT_EQ(s.robustness.vertices, std::vector<int>{400});
 }
 
+TEST(Config, VerticesAreACountOrAuto) {
+  EXPECT_EQ(parse("[mesh]\nvertices = 'auto'\n").mesh.vertices, std::nullopt);
+  EXPECT_EQ(error_of("[mesh]\nvertices = 'many'\n"),
+            "f.toml:2:12: mesh.vertices is a text; must be a whole number >= 200 and <= 1e+06, or "
+            "\"auto\"");
+  EXPECT_EQ(set_error("mesh.vertices=auto"), "no error");
+  EXPECT_EQ(set_error("mesh.vertices=\"auto\""), "no error");
+  EXPECT_TRUE(contains(set_error("mesh.tolerance=0"), "must be a finite number > 0 and <= 100"));
+  const Assignment automatic = assignment_from_set("mesh.vertices=auto");
+  EXPECT_TRUE(contains(
+      read_error(std::nullopt, {assignment_from_set("experiment.kind=dataset"), automatic}),
+      "--set mesh.vertices=auto: mesh.vertices = \"auto\" is only for kind \"drape\""));
+  EXPECT_TRUE(contains(
+      read_error(std::nullopt, {assignment_from_set("experiment.kind=drape"),
+                                assignment_from_set("start.protocol=ensemble"), automatic}),
+      "an ensemble needs a count"));
+}
+
 TEST(Config, UnknownKey) {
   EXPECT_EQ(error_of("[mesh]\nseed = 1\n[solver]\n  tolerence = 1e-8\n"),
             "f.toml:4:3: unknown key 'solver.tolerence'; did you mean 'tolerance'?");
@@ -121,8 +141,9 @@ TEST(Config, UnknownSection) {
   EXPECT_TRUE(contains(error_of("[xyzzy]\n"),
                        "f.toml:1:2: unknown section 'xyzzy'; the sections are "
                        "experiment, fabric,"));
-  EXPECT_EQ(error_of("tolerance = 1\n"),
-            "f.toml:1:1: unknown key or section 'tolerance'; did you mean 'solver.tolerance'?");
+  EXPECT_EQ(
+      error_of("factorization = 1\n"),
+      "f.toml:1:1: unknown key or section 'factorization'; did you mean 'solver.factorization'?");
   EXPECT_TRUE(contains(error_of("solver = 1\n"), "f.toml:1:1: 'solver' is a section"));
   EXPECT_TRUE(contains(error_of("[[solver]]\n"), "'solver' is a section"));
 }
@@ -156,10 +177,10 @@ TEST(Config, RangesOnBothSidesOfTheirEnds) {
   EXPECT_TRUE(allowed("[mesh]\nrotation = -7"));
   EXPECT_EQ(error_of("[fabric]\nk_bu = -2e-6"),
             "f.toml:2:8: fabric.k_bu = -2e-06: must be a finite number > 0 N m");
-  EXPECT_EQ(
-      error_of("[start]\nprotocol = 'rump'"),
-      "f.toml:2:12: start.protocol = \"rump\": must be one of \"coarse_ramp\", \"lobes\", \"ramp\", "
-      "\"lowering\", \"guided\", \"ensemble\"; did you mean 'ramp'?");
+  EXPECT_EQ(error_of("[start]\nprotocol = 'rump'"),
+            "f.toml:2:12: start.protocol = \"rump\": must be one of \"coarse_ramp\", \"lobes\", "
+            "\"ramp\", "
+            "\"lowering\", \"guided\", \"ensemble\"; did you mean 'ramp'?");
 }
 
 TEST(Config, Lists) {

@@ -1,0 +1,154 @@
+#include "experiments/config_key_list.h"
+
+namespace drape {
+
+void add_keys_of_kinds(ConfigKeyList& add) {
+  add("dataset", "fabrics", "", at_least(1), "Number of random fabrics; a table overrides it.",
+      DRAPE_MEMBER(dataset.fabrics));
+  add("dataset", "table", "", kAny,
+      "CSV of tags (id,category,subcategory,type,composition_percent,areal_density_gsm); \"\" for "
+      "random fabrics.",
+      DRAPE_MEMBER(dataset.table));
+  add("dataset", "rows", "", kNotNegative, "How many rows of the table; 0 for all.",
+      DRAPE_MEMBER(dataset.rows));
+  add("dataset", "pixels", "", {16, 4096, true}, "Rows and columns of the coverage images.",
+      DRAPE_MEMBER(dataset.pixels));
+  add("dataset", "image_width", "m", kPositive, "Width and height of the coverage images.",
+      DRAPE_MEMBER(dataset.image_width));
+
+  add("estimate", "fabrics", "", at_least(1),
+      "Number of random fabrics to recover; a dataset overrides it.",
+      DRAPE_MEMBER(estimate.fabrics));
+  add("estimate", "dataset", "", kAny, "A results.h5 with observations; \"\" for random fabrics.",
+      DRAPE_MEMBER(estimate.dataset));
+  add("estimate", "records", "", kNotNegative, "Which records of the dataset; [] for all.",
+      DRAPE_MEMBER(estimate.records));
+  add("estimate", "method", "", kAny,
+      "Levenberg-Marquardt with forward sensitivities, or BFGS with adjoint gradients alone.",
+      DRAPE_MEMBER(estimate.method));
+  add("estimate", "loss", "", kAny, "What is compared: radial profiles or coverage images.",
+      DRAPE_MEMBER(estimate.loss));
+  add("estimate", "parameters", "", kAny, "The parameters to estimate; the others are held.",
+      DRAPE_MEMBER(estimate.parameters));
+  add("estimate", "perturbation", "", at_least(1),
+      "Factor by which the start is wrong where the truth is known.",
+      DRAPE_MEMBER(estimate.perturbation));
+  add("estimate", "perturb_either_way", "", kAny,
+      "Divide some parameters by that factor, chosen by the seed, instead of multiplying all.",
+      DRAPE_MEMBER(estimate.perturb_either_way));
+  add("estimate", "max_iterations", "", at_least(1), "Iterations of one fit at most.",
+      DRAPE_MEMBER(estimate.max_iterations));
+  add("estimate", "bounds", "", {1, kInfinity, false},
+      "A parameter stays within this factor of its start, up and down.",
+      DRAPE_MEMBER(estimate.bounds));
+  add("estimate", "outline_noise", "m", kNotNegative,
+      "Standard deviation of an observed radius: scales the errors of the estimates.",
+      DRAPE_MEMBER(estimate.outline_noise));
+  add("estimate", "add_noise", "", kAny,
+      "Add smooth noise of that standard deviation to the profiles of a dataset.",
+      DRAPE_MEMBER(estimate.add_noise));
+  add("estimate", "prior_log_sd", "", kNotNegative,
+      "Standard deviation of the prior on each log parameter about its start; 0 for no prior.",
+      DRAPE_MEMBER(estimate.prior_log_sd));
+  add("estimate", "start", "", kAny,
+      "First drape of a fit: \"guided\" by the observed outline, or, where the target's "
+      "equilibrium "
+      "is known, \"continued\" from it (guided where that fails).",
+      DRAPE_MEMBER(estimate.start));
+  add("estimate", "guide", "", kNotNegative,
+      "Strengths of the guide of a guided fit, released one after the other; then none.",
+      DRAPE_MEMBER(estimate.guide));
+  add("estimate", "guide_harmonics", "", {1, 180, true},
+      "Harmonics of the profile that start and guide follow.",
+      DRAPE_MEMBER(estimate.guide_harmonics));
+
+  add("photograph", "file", "", kAny, "PNG or JPEG with one silhouette, seen from above.",
+      DRAPE_MEMBER(photograph.file));
+  add("photograph", "mm_per_pixel", "mm", kNotNegative,
+      "Size of a pixel in the plane of the drape; must be given for a photograph.",
+      DRAPE_MEMBER(photograph.mm_per_pixel));
+  add("photograph", "areal_density", "kg/m^2", kNotNegative,
+      "The fabric's mass per area; must be given for a photograph.",
+      DRAPE_MEMBER(photograph.areal_density));
+  add("photograph", "structure", "", kAny, "How the cloth is made, for the first parameters.",
+      DRAPE_MEMBER(photograph.structure));
+  add("photograph", "outline_noise", "m", kPositive,
+      "Standard deviation of an observed radius, model error included.",
+      DRAPE_MEMBER(photograph.outline_noise));
+  add("photograph", "prior_log_sd", "", kNotNegative,
+      "Standard deviation of the prior on each log parameter about the tag's; 0 for no prior.",
+      DRAPE_MEMBER(photograph.prior_log_sd));
+
+  add("gradient_check", "fabrics", "", at_least(1), "Number of random fabrics.",
+      DRAPE_MEMBER(gradient_check.fabrics));
+  add("gradient_check", "loss", "", kAny, "The loss whose gradient is checked.",
+      DRAPE_MEMBER(gradient_check.loss));
+  add("gradient_check", "parameters", "", kAny, "The parameters whose derivatives are checked.",
+      DRAPE_MEMBER(gradient_check.parameters));
+  add("gradient_check", "steps", "", {0, 0.1, false},
+      "Steps of the central differences, of log parameters (of t_b itself).",
+      DRAPE_MEMBER(gradient_check.steps));
+
+  add("robustness", "fabrics", "", at_least(1),
+      "Number of random fabrics: half of the measured distribution, half from a wide box.",
+      DRAPE_MEMBER(robustness.fabrics));
+  add("robustness", "vertices", "", kVertices,
+      "Mesh sizes to solve them on. The first one's results.h5 is the run's, the others' are in "
+      "vertices_N.",
+      DRAPE_MEMBER(robustness.vertices));
+  add("robustness", "only", "", kNotNegative,
+      "Indices of the fabrics to solve (again), e.g. of a failure; [] for all.",
+      DRAPE_MEMBER(robustness.only));
+
+  add("quickstart", "fabrics", "", at_least(1), "Number of fabrics, from the top of the table.",
+      DRAPE_MEMBER(quickstart.fabrics));
+  add("quickstart", "table", "", kAny,
+      "CSV of tags, columns as in dataset.table; must be given for the quickstart.",
+      DRAPE_MEMBER(quickstart.table));
+  add("quickstart", "photograph", "", kAny,
+      "A photograph to fit as well; \"\" for none. Skipped, saying so, where it is missing.",
+      DRAPE_MEMBER(quickstart.photograph));
+  add("quickstart", "mm_per_pixel", "mm", kNotNegative, "Size of a pixel of the photograph.",
+      DRAPE_MEMBER(quickstart.mm_per_pixel));
+  add("quickstart", "areal_density", "kg/m^2", kNotNegative,
+      "Mass per area of the fabric in the photograph.", DRAPE_MEMBER(quickstart.areal_density));
+
+  add("validation", "slenderness", "", kPositive,
+      "Lengths of the cantilever strips over (B / weight per area)^(1/3).",
+      DRAPE_MEMBER(validation.slenderness));
+  add("validation", "edge_lengths", "m", kPositive, "Edge lengths of the strips' meshes.",
+      DRAPE_MEMBER(validation.edge_lengths));
+  add("validation", "widths", "m", kPositive, "Widths of the strips.",
+      DRAPE_MEMBER(validation.widths));
+  add("validation", "plate_vertices", "", kVertices, "Mesh sizes of the annular plate.",
+      DRAPE_MEMBER(validation.plate_vertices));
+  add("validation", "seeds", "", at_least(1), "Meshes of every size.",
+      DRAPE_MEMBER(validation.seeds));
+  add("validation", "bias_vertices", "", kVertices,
+      "Mesh sizes of the drapes on turned meshes; [] for none.",
+      DRAPE_MEMBER(validation.bias_vertices));
+  add("validation", "rotations", "", at_least(1), "Rotations of every mesh, over half a turn.",
+      DRAPE_MEMBER(validation.rotations));
+
+  add("accuracy", "vertices", "", kVertices, "Mesh sizes.", DRAPE_MEMBER(accuracy.vertices));
+  add("accuracy", "reference_vertices", "", kVertices, "Mesh size of the reference drapes.",
+      DRAPE_MEMBER(accuracy.reference_vertices));
+  add("accuracy", "seeds", "", at_least(1), "Meshes of every size.", DRAPE_MEMBER(accuracy.seeds));
+  add("accuracy", "fabrics", "", {1, 9, true}, "How many of the study's nine fabrics.",
+      DRAPE_MEMBER(accuracy.fabrics));
+
+  add("branches", "softest", "", kPositive,
+      "Factor on the fabric's bending stiffnesses where the sweeps start and end.",
+      DRAPE_MEMBER(branches.softest));
+  add("branches", "stiffest", "", kPositive, "Factor where they turn back; more than softest.",
+      DRAPE_MEMBER(branches.stiffest));
+  add("branches", "ramp", "", kAny, "Follow the branch that the gravity ramp finds.",
+      DRAPE_MEMBER(branches.ramp));
+  add("branches", "lobes", "", {1, 60, true},
+      "Follow the branches that starts folded into these many lobes find.",
+      DRAPE_MEMBER(branches.lobes));
+  add("branches", "largest_step", "", {0, 1, false},
+      "Of the logarithm of the stiffness, in one step.", DRAPE_MEMBER(branches.largest_step));
+}
+
+}  // namespace drape

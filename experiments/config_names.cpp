@@ -1,0 +1,63 @@
+#include "experiments/config_names.h"
+
+namespace drape {
+
+template <>
+std::vector<std::string> names_of<Kind>() {
+  return {"drape",      "dataset",    "estimate", "photograph", "gradient_check",
+          "robustness", "quickstart", "branches", "validation", "accuracy"};
+}
+template <>
+std::vector<std::string> names_of<MeshKind>() {
+  return {"isotropic"};
+}
+template <>
+std::vector<std::string> names_of<FactorBackend>() {
+  return {std::string(name(FactorBackend::cholmod)), std::string(name(FactorBackend::eigen))};
+}
+template <>
+std::vector<std::string> names_of<StartProtocol>() {
+  return {"coarse_ramp", "lobes", "ramp", "lowering", "guided", "ensemble"};
+}
+template <>
+std::vector<std::string> names_of<ContactMode>() {
+  return {std::string(name(ContactMode::automatic)), std::string(name(ContactMode::off)),
+          std::string(name(ContactMode::support))};
+}
+template <>
+std::vector<std::string> names_of<FitMethod>() {
+  return {"levenberg_marquardt", "bfgs"};
+}
+template <>
+std::vector<std::string> names_of<OutlineLoss>() {
+  return {"profile", "coverage"};
+}
+template <>
+std::vector<std::string> names_of<EstimateStart>() {
+  return {"guided", "continued"};
+}
+template <>
+std::vector<std::string> names_of<Structure>() {
+  return {"woven", "knit", "other"};
+}
+template <>
+std::vector<std::string> names_of<CheckedLoss>() {
+  return {"profile", "coverage", "drape_coefficient"};
+}
+template <>
+std::vector<std::string> names_of<BendingLaw>() {
+  return {std::string(name(BendingLaw::tangent)), std::string(name(BendingLaw::secant))};
+}
+template <>
+std::vector<std::string> names_of<BendingThreshold>() {
+  return {std::string(name(BendingThreshold::printed)),
+          std::string(name(BendingThreshold::radius))};
+}
+template <>
+std::vector<std::string> names_of<Parameter>() {
+  std::vector<std::string> names;
+  for (Parameter p : all_parameters()) names.emplace_back(name(p));
+  return names;
+}
+
+}  // namespace drape
