@@ -94,7 +94,10 @@ class Minimisation {
         return at_rounding_floor();
       }
       ++result_.newton_iterations;
-      if (refresh_is_due()) refresh();
+      if (refresh_is_due() && !refresh()) {
+        result_.status = EquilibriumStatus::stagnated;
+        return at_rounding_floor();
+      }
       if (line_search(direction())) {
         ++use_;
         if (noisy_steps_ <= kNoisePatience) continue;
@@ -125,7 +128,8 @@ class Minimisation {
   bool refresh_is_due() const {
     if (!preconditioner_ || factor_is_old_) return true;
     if (hard_searches_ >= kHardSearches) return true;
-    if (!near()) return use_ >= kLongestUse;
+    // where the true Hessian is not positive definite yet, the end is further than it looks
+    if (!near() || near_blend_ > 0) return use_ >= kLongestUse;
     if (use_ >= kLongestUseNear) return true;
     if (use_ < kShortestUseNear) return false;
     const double rate = std::log(result_.residual / residual_at_refresh_) / use_;
@@ -133,12 +137,13 @@ class Minimisation {
     return rate >= 0 || to_go / rate > kIterationsWorth;
   }
 
-  /// A factor of the blended Hessian at x, its blend as small as wanted and possible.
-  void refresh() {
+  /// A factor of the blended Hessian at x, its blend as small as wanted and possible; false if
+  /// there is none at all.
+  bool refresh() {
     double blend = near() ? near_blend_ : 1;
     while (!factor(blend)) {
       if (blend >= 1) {
-        lift();
+        if (!lift()) return false;
         break;
       }
       blend = std::min(1.0, std::max(kFirstBlend, 2 * blend + kFirstBlend / 2));
@@ -149,6 +154,7 @@ class Minimisation {
     factor_is_old_ = false;
     use_ = hard_searches_ = 0;
     residual_at_refresh_ = result_.residual;
+    return true;
   }
 
   /// Factorises H(blend) at x; where that works the factor becomes the preconditioner.
@@ -170,13 +176,13 @@ class Minimisation {
 
   /// Only stiffnesses many orders of magnitude apart get here: lift the diagonal from rounding
   /// size upwards until there is a factor.
-  void lift() {
+  bool lift() {
     const double scale = hessian_.diagonal().maxCoeff();
     for (double share = 1e-14; share < 1; share *= 100) {
       hessian_.diagonal() += VecX::Constant(hessian_.rows(), share * scale);
-      if (factor_hessian()) return;
+      if (factor_hessian()) return true;
     }
-    throw std::runtime_error("equilibrium: the projected Hessian has no Cholesky factor");
+    return false;
   }
 
   /// -H g in the free order, no vertex further than largest_move.
