@@ -17,7 +17,6 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr int kRampSteps = 16;
 constexpr int kCoarseRampSteps = 8;
 constexpr double kRampStart = 0.02;      // first share of gravity
-constexpr double kRampNoise = 1e-6;      // [m]
 constexpr double kLooseTolerance = 0.1;  // residual of a step, relative to its own gravity
 constexpr double kSoftTolerance = 10;    // residual with a membrane that is too soft
 constexpr double kSoftStrain = 0.03;     // of the softest membrane under the overhang's weight
@@ -44,12 +43,7 @@ struct RampSteps {
 
 Equilibrium ramp(Potential potential, const RampSteps& how, std::uint64_t seed,
                  const EquilibriumOptions& options) {
-  VecX x = flat_state(potential.mesh());
-  Random random(seed);
-  for (int v = 0; v < potential.mesh().vertex_count(); ++v)
-    if (!potential.mesh().fixed[static_cast<size_t>(v)])
-      for (int k = 0; k < 3; ++k) x[3 * v + k] += kRampNoise * random.uniform(-1, 1);
-
+  VecX x = noisy_flat_state(potential.mesh(), seed);
   const double gravity = potential.gravity();
   Equilibrium result;
   VecX before;
@@ -160,6 +154,15 @@ Equilibrium drape_by_ramp(const Potential& potential, std::uint64_t seed,
       restated(free, ramp(free, {.steps = kRampSteps, .predicted = false}, seed, options));
   result.protocol = "ramp";
   return result;
+}
+
+VecX noisy_flat_state(const Mesh& mesh, std::uint64_t seed) {
+  VecX x = flat_state(mesh);
+  Random random(seed);
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    if (!mesh.fixed[static_cast<size_t>(v)])
+      for (int k = 0; k < 3; ++k) x[3 * v + k] += kStartNoise * random.uniform(-1, 1);
+  return x;
 }
 
 VecX folded_state(const Mesh& mesh, const Scene& scene, int lobes, double phase) {

@@ -34,6 +34,10 @@ Equilibrium drape_by_coarse_ramp(const Potential& potential, std::uint64_t seed,
 Equilibrium drape_by_ramp(const Potential& potential, std::uint64_t seed,
                           const EquilibriumOptions& options = {});
 
+/// The flat rest state with kStartNoise at the free vertices: exactly flat is a saddle. State 3n.
+inline constexpr double kStartNoise = 1e-6;  // [m]
+VecX noisy_flat_state(const Mesh& mesh, std::uint64_t seed);
+
 /// A start with `lobes` sinusoidal folds around the support; phase [rad] turns them. State 3n.
 VecX folded_state(const Mesh& mesh, const Scene& scene, int lobes, double phase);
 

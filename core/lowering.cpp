@@ -6,26 +6,16 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/random.h"
+#include "core/drape_protocol.h"
 
 namespace drape {
 namespace {
 
-constexpr double kNoise = 1e-6;          // [m]
 constexpr double kStepTolerance = 1e-3;  // residual on the plate
 // from the prediction, over the specimen's radius: wrinkles of a few millimetres form and vanish at
 // the line of contact all the time, what halves a step is a snap of the drape
 constexpr double kLargestDeviation = 1.0 / 30;
 constexpr int kHalvings = 6;
-
-VecX noisy_flat_state(const Mesh& mesh, std::uint64_t seed) {
-  VecX x = flat_state(mesh);
-  Random random(seed);
-  for (int v = 0; v < mesh.vertex_count(); ++v)
-    if (!mesh.fixed[static_cast<size_t>(v)])
-      for (int k = 0; k < 3; ++k) x[3 * v + k] += kNoise * random.uniform(-1, 1);
-  return x;
-}
 
 /// The plate on its way down; each method is one part of a step.
 class Lowering {
@@ -99,7 +89,7 @@ class Lowering {
   EquilibriumOptions options_;
   double largest_step_;
   Equilibrium result_;
-  double height_ = 2 * kNoise;  // all of the flat start touches
+  double height_ = 2 * kStartNoise;  // all of the flat start touches
   int iterations_ = 0, factorizations_ = 0;
   double cpu_ = 0;
 };
