@@ -14,7 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "core/durable_file.h"
 #include "core/transfer.h"
+#include "experiments/figure.h"
 #include "experiments/interrupt.h"
 #include "experiments/json_store.h"
 #include "experiments/kinds.h"
@@ -24,6 +26,7 @@
 #include "experiments/record_store.h"
 #include "experiments/statistics.h"
 #include "experiments/study_fabrics.h"
+#include "experiments/summary.h"
 
 namespace drape {
 namespace {
@@ -250,6 +253,8 @@ RunOutcome run_accuracy(const Settings& settings, OutputFolder& folder) {
   summary["solves"] = solves;
   summary["converged"] = good;
   outcome.status = good == solves ? "ok" : good > 0 ? "partial" : "failed";
+  write_text_durably(folder / "accuracy.json", summary_text(outcome.summary));
+  draw_figure("accuracy.py", folder / "accuracy.json", folder / "accuracy");
   return outcome;
 }
 

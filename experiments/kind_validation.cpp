@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/durable_file.h"
+#include "experiments/figure.h"
 #include "experiments/interrupt.h"
 #include "experiments/json_store.h"
 #include "experiments/kinds.h"
@@ -15,6 +17,7 @@
 #include "experiments/parallel_items.h"
 #include "experiments/progress.h"
 #include "experiments/statistics.h"
+#include "experiments/summary.h"
 #include "experiments/validation_cases.h"
 
 namespace drape {
@@ -227,6 +230,8 @@ RunOutcome run_validation(const Settings& settings, OutputFolder& folder) {
   std::printf("orders: cantilever %.2f, plate %.2f (clamp wings of single weight %.2f)\n",
               number(summary["cantilever_order"]), number(summary["plate_order"]),
               number(summary["plate_order_single_clamp_weight"]));
+  write_text_durably(folder / "validation.json", summary_text(outcome.summary));
+  draw_figure("validation.py", folder / "validation.json", folder / "validation");
   return outcome;
 }
 
