@@ -2,14 +2,10 @@
 """Error of the drape coefficient on one branch against the CPU time of a cold drape.
 
     /usr/bin/python3 accuracy.py SUMMARY.json --out DIR/accuracy    writes .png and .pdf"""
-
-import argparse
-import json
-import sys
-
 import numpy as np
 
 import style
+import study
 
 COLOURS = {"stiff": style.ESTIMATE, "medium": style.START, "soft": style.WARNING}
 
@@ -63,23 +59,5 @@ def page(summary):
     return figure
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("summary", help="summary.json of a run of kind accuracy")
-    parser.add_argument("--out", required=True, help="path and stem of the files to write")
-    arguments = parser.parse_args()
-    try:
-        with open(arguments.summary, encoding="utf-8") as file:
-            summary = json.load(file)
-        drawn = page(summary)
-    except (OSError, ValueError, KeyError) as error:
-        print(f"{arguments.summary}: cannot be read as a summary of kind accuracy: {error!r}",
-              file=sys.stderr)
-        sys.exit(2)
-    for path in drawn.save(arguments.out):
-        print(path)
-
-
 if __name__ == "__main__":
-    main()
+    study.draw("accuracy", __doc__, page)

@@ -5,14 +5,10 @@
 
 The elastica is solved here once more, by finite differences and Newton's method, as a check of the
 run's own shooting."""
-
-import argparse
-import json
-import sys
-
 import numpy as np
 
 import style
+import study
 
 WIDTH, PANEL_WIDTH, PANEL_HEIGHT = 180, 46, 38  # mm
 POISSON = -1 / 3
@@ -205,23 +201,5 @@ def _value(number, digits):
     return "–" if number is None else f"{number:.{digits}f}"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("summary", help="summary.json of a run of kind validation")
-    parser.add_argument("--out", required=True, help="path and stem of the files to write")
-    arguments = parser.parse_args()
-    try:
-        with open(arguments.summary, encoding="utf-8") as file:
-            summary = json.load(file)
-        drawn = page(summary)
-    except (OSError, ValueError, KeyError) as error:
-        print(f"{arguments.summary}: cannot be read as a summary of kind validation: {error!r}",
-              file=sys.stderr)
-        sys.exit(2)
-    for path in drawn.save(arguments.out):
-        print(path)
-
-
 if __name__ == "__main__":
-    main()
+    study.draw("validation", __doc__, page)
