@@ -51,11 +51,10 @@ void set_circle(Points2& points, int first, int count, double radius, double pha
 
 /// Uniform points in the open annulus.
 void set_inside(Points2& points, int first, const Scene& scene, double margin, Random& random) {
-  const LowDiscrepancy sequence(random);
   const double inner = std::pow(scene.support_radius + margin, 2);
   const double outer = std::pow(scene.specimen_radius - margin, 2);
   for (Eigen::Index i = first; i < points.rows(); ++i) {
-    const Vec2 p = sequence(static_cast<int>(i) - first + 1);
+    const Vec2 p = uniform_point(random);
     const double radius = std::sqrt(inner + (outer - inner) * p.x());
     points.row(i) = radius * Vec2(std::cos(2 * kPi * p.y()), std::sin(2 * kPi * p.y()));
   }

@@ -1,10 +1,10 @@
 // The mesh of Cusick's specimen: an isotropic unstructured annulus from the clamp to the rim.
 //
 // Vertices lie exactly on the rim and on the clamp circle; the inside is a centroidal Voronoi
-// tessellation (Lloyd 1982, 40 iterations from a shifted low-discrepancy sequence), so no direction
-// is preferred: with lattices or concentric rings the hinge energy is up to 3 times stiffer in some
-// directions. The part on the support is rigid and only one ring of its triangles is kept: each is
-// as high over the clamp line as the triangle outside, as the weight of those wings assumes.
+// tessellation (Lloyd 1982, from random points), so no direction is preferred: with lattices or
+// concentric rings the hinge energy is up to 3 times stiffer in some directions. The part on the
+// support is rigid and only one ring of its triangles is kept: each is as high over the clamp line
+// as the triangle outside, as the weight of those wings assumes.
 #pragma once
 
 #include <cstdint>

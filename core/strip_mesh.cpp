@@ -51,14 +51,13 @@ Mesh make_strip_mesh(const StripMeshOptions& options) {
   Points2 points(first_inside + inside, 2);
   for (int i = 0; i < first_inside; ++i) points.row(i) = boundary[static_cast<size_t>(i)];
   Random random(options.seed);
-  const LowDiscrepancy sequence(random);
   const double row_height = std::sqrt(3.0) / 2 * h;
   const auto place = [&](const Vec2& share, double margin) -> Vec2 {
     return {margin + (length - 2 * margin) * share.x(),
             low + margin + (width - 2 * margin) * share.y()};
   };
   for (int i = 0; i < inside; ++i)
-    points.row(first_inside + i) = place(sequence(i + 1), 0.5 * row_height);
+    points.row(first_inside + i) = place(uniform_point(random), 0.5 * row_height);
 
   const double margin = 0.6 * row_height;
   const MeshRegion region{first_inside,
