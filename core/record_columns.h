@@ -1,4 +1,4 @@
-// The columns of schema drape-records 2: every column of a table is named here once, with its unit,
+// The columns of schema drape-records 3: every column of a table is named here once, with its unit,
 // the shape of one cell and its place in a record. Writing and reading are visits of this list.
 //
 // A visitor is called as visit(const Column&, place); place(row) is the value of that column in a
@@ -29,17 +29,18 @@ struct CellSizes {
 
 /// One column a parameter. `place(row)` is a Fabric or a ParameterVector.
 template <class Place, class Visit>
-void visit_parameter_columns(const std::string& group, bool logarithms, Place place,
-                             Visit&& visit) {
+void visit_parameter_columns(const std::string& group, bool pure_numbers, Place place,
+                             Visit&& visit, std::uint64_t since = 1) {
   for (Parameter p : all_parameters()) {
-    const std::string unit(logarithms ? "1" : info(p).unit);
-    visit({group + "/" + std::string(name(p)), unit}, [place, p](auto& row) -> decltype(auto) {
-      auto& values = std::invoke(place, row);
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(values)>, Fabric>)
-        return values[p];
-      else
-        return values[static_cast<int>(p)];
-    });
+    const std::string unit(pure_numbers ? "1" : info(p).unit);
+    visit({group + "/" + std::string(name(p)), unit, {}, since},
+          [place, p](auto& row) -> decltype(auto) {
+            auto& values = std::invoke(place, row);
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(values)>, Fabric>)
+              return values[p];
+            else
+              return values[static_cast<int>(p)];
+          });
   }
 }
 
@@ -98,6 +99,8 @@ template <class Visit>
 void visit_estimate_columns(const CellSizes& sizes, Visit&& visit) {
   visit_parameter_columns("/params_estimated", false, &EstimateRecord::fabric, visit);
   visit_parameter_columns("/params_estimated_log_sd", true, &EstimateRecord::log_sd, visit);
+  visit_parameter_columns("/params_estimated_picture_share", true, &EstimateRecord::picture_share,
+                          visit, 3);
   visit_parameter_columns("/params_start", false, &EstimateRecord::start, visit);
   visit({"/sim_estimated/positions", "m", {sizes.vertices, 3}}, &EstimateRecord::positions);
   visit_stats_columns("/stats_estimated", &EstimateRecord::stats, visit);
@@ -110,6 +113,11 @@ void visit_estimate_columns(const CellSizes& sizes, Visit&& visit) {
   visit({"/estimate/forward_solves", "1"}, &EstimateRecord::forward_solves);
   visit({"/estimate/profile", "m", {kProfileSize}}, &EstimateRecord::profile);
   visit({"/estimate/start_profile", "m", {kProfileSize}}, &EstimateRecord::start_profile);
+  visit({"/estimate/centre", "m", {2}, 3}, &EstimateRecord::centre);
+  visit({"/estimate/weft_angle", "rad", {}, 3}, &EstimateRecord::weft_angle);
+  visit({"/estimate/log_scale", "1", {}, 3}, &EstimateRecord::log_scale);
+  visit({"/estimate/effective_rigidity", "N m", {3}, 3}, &EstimateRecord::rigidity);
+  visit({"/estimate/effective_rigidity_log_sd", "1", {3}, 3}, &EstimateRecord::rigidity_log_sd);
 }
 
 }  // namespace drape

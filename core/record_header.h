@@ -13,7 +13,7 @@
 namespace drape {
 
 inline constexpr const char* kSchema = "drape-records";
-inline constexpr std::uint64_t kSchemaVersion = 2;
+inline constexpr std::uint64_t kSchemaVersion = 3;
 
 /// Throws std::invalid_argument that names what is out of range.
 void check(const RecordsHeader& header);
@@ -22,7 +22,8 @@ void check(const RecordsHeader& header);
 /// and of its version or an older one.
 hdf5::File open_records(const std::filesystem::path& path);
 
-/// Version 1 knows no contact: neither its columns nor a column radius.
+/// Version 1 knows no contact: neither its columns nor a column radius; version 2 no shares of the
+/// pictures in an estimate, no placement and no effective rigidity.
 std::uint64_t schema_version(const hdf5::File& file);
 
 /// /sim and /observation/coverage, which carry attributes of the header, must have been written.

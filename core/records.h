@@ -1,4 +1,4 @@
-// Records: fabrics, their equilibria and what is seen of them, in HDF5 (schema drape-records 2).
+// Records: fabrics, their equilibria and what is seen of them, in HDF5 (schema drape-records 3).
 //
 // One file holds a table of N fabrics on one mesh: /mesh/<id>, /fabric, /params, /sim,
 // /observation, /stats, and /params_estimated, /sim_estimated, /estimate where an estimate was
@@ -31,6 +31,8 @@ struct RecordError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
 /// What all records of one file share.
 struct RecordsHeader {
   std::string config;      ///< the resolved config, verbatim
@@ -61,7 +63,7 @@ struct SolveStats {
   double cpu_seconds = 0;
   std::string contact = "off";  ///< what acts: "off" or "support"
   int self_intersections = -1;  ///< crossing pairs of triangles; -1 where nothing was solved
-  double support_penetration = std::numeric_limits<double>::quiet_NaN();  ///< deepest vertex [m]
+  double support_penetration = kNotKnown;  ///< deepest vertex [m]
 };
 
 /// What is seen of a drape (/observation). Where the solve failed: NaN, a coverage of zero.
@@ -72,15 +74,22 @@ struct Observation {
   int node_count = 0;
 };
 
-/// The outcome of an estimation (/params_estimated, /params_estimated_log_sd, /sim_estimated,
-/// /estimate).
+/// The outcome of an estimation (/params_estimated, /params_estimated_log_sd,
+/// /params_estimated_picture_share, /sim_estimated, /estimate).
 struct EstimateRecord {
   Fabric fabric;
-  Fabric start;            ///< the first parameters of the fit (/params_start)
-  ParameterVector log_sd;  ///< NaN where a parameter was held
-  VecX positions;          ///< 3n
-  SolveStats stats;        ///< of the estimated state; status "recovered" and so on is in `outcome`
-  std::string outcome;     ///< "succeeded" or the reason why not
+  Fabric start;  ///< the first parameters of the fit (/params_start)
+  /// Both NaN where a parameter was held. The share: 1 - posterior over prior variance.
+  ParameterVector log_sd = ParameterVector::Constant(kNotKnown), picture_share = log_sd;
+  /// Effective (B_u, B_v, B_45) [N m] and the standard deviations of their logarithms.
+  VecX rigidity = Vec3::Constant(kNotKnown), rigidity_log_sd = rigidity;
+  VecX positions;    ///< 3n
+  SolveStats stats;  ///< of the estimated state; status "recovered" and so on is in `outcome`
+  /// Where the observation lies on the drape: its origin in the drape's frame [m], the direction
+  /// of the weft in it [rad], and the logarithm of true over nominal length.
+  VecX centre = VecX::Zero(2);
+  double weft_angle = 0, log_scale = 0;
+  std::string outcome;  ///< "succeeded" or the reason why not
   bool branch_shared = false;
   double outline_rms = 0;  ///< [m]
   double iou = 0;

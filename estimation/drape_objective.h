@@ -1,88 +1,71 @@
-// The misfit between a drape and an observed outline, as a function of the unknowns of a fit.
+// The negative logarithm of the posterior of a fabric given pictures of its drapes, but for a
+// constant, as a function of the unknowns of a fit.
 //
-// Unknowns u: the z of a ParameterSpace, then, for photographs, the centre of the observed outline
-// in the drape's frame (2 values in millimetres). With residuals r over the 360 directions of the
-// profile,
+// Unknowns u: the z of a ParameterSpace, then the nuisances of each picture. With r the residuals
+// of all pictures (picture_misfit.h),
 //
-//   J(u) = 1/2 |r|^2,  r = (rho(alpha; centre) - rho_obs(alpha)) / noise * sqrt(61 / 360)
-//          [+ 1/2 |(z - z_start) / prior_log_sd|^2]
+//   J(u) = 1/2 |r|^2 + 1/2 (z - m)^T C^-1 (z - m) + 1/2 sum over nuisances (v / sd)^2
 //
-// (61 independent values: a profile carries 30 harmonics). The coverage loss has the same scale:
-// its pixels are weighted so that a uniform radial miss costs what it costs in the profile. Every
-// drape is reached along its branch from the nearest drape known (continuation.h); where the branch
-// is lost there is no value.
+// Where the branch of a picture is lost there is no value.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "core/coverage.h"
-#include "core/outline.h"
-#include "core/profile.h"
-#include "core/scene.h"
-#include "estimation/continuation.h"
+#include "estimation/picture_misfit.h"
+#include "estimation/prior.h"
 
 namespace drape {
 
-/// What was seen of one drape.
-struct OutlineObservation {
-  VecX profile;              ///< kProfileSize radii about the observation's origin [m]
-  double noise = 5e-4;       ///< standard deviation of a radius [m]
-  bool centre_known = true;  ///< whether that origin is the axis of the support
-  PixelGrid grid;            ///< of `coverage`
-  CoverageImage coverage;    ///< needed by the coverage loss only
-};
-
-enum class OutlineLoss { profile, coverage };
-
 class DrapeObjective {
  public:
-  DrapeObjective(Potential potential, const Scene& scene, ParameterSpace space,
-                 OutlineObservation observation, OutlineLoss loss, double prior_log_sd,
-                 int max_solves);
+  /// max_solves: of all pictures together. Throws std::invalid_argument without a picture, or for a
+  /// bad observation or prior.
+  DrapeObjective(std::vector<Picture> pictures, ParameterSpace space,
+                 const std::optional<Prior>& prior, const MisfitOptions& options, int max_solves);
 
-  int unknowns() const { return space_.size() + (observation_.centre_known ? 0 : 2); }
-  int residuals() const { return kProfileSize + (has_prior() ? space_.size() : 0); }
+  int unknowns() const { return unknowns_; }
+  /// Those of the pictures, kProfileSize each, then those of the priors.
+  int residuals() const;
   const ParameterSpace& space() const { return space_; }
+  size_t pictures() const { return misfits_.size(); }
+  const Picture& picture(size_t i) const { return misfits_[i].picture(); }
 
-  /// The only drape known from here on; clears what was known before. `potential` carries the guide
-  /// under which it is in equilibrium. From here on branches are followed as `continuation` says.
-  void start_from(const Potential& potential, BranchPoint point,
+  /// See PictureMisfit::start_from, of picture i.
+  void start_from(size_t i, const Potential& potential, BranchPoint point,
                   const ContinuationOptions& continuation);
 
-  /// Residuals and, if wanted, their Jacobian (residuals x unknowns). False where the branch is
-  /// lost.
+  /// Residuals and, if wanted, their Jacobian (residuals x unknowns). False where a branch is lost
+  /// or max_solves are spent.
   bool residuals_at(const VecX& u, VecX& r, MatX* jacobian);
 
-  /// J and, by one adjoint solve, its gradient. False where the branch is lost.
+  /// J and, by one adjoint solve a picture, its gradient. False likewise.
   bool cost_at(const VecX& u, double& cost, VecX* gradient);
 
-  /// The drape at u, nothing where the branch is lost or max_solves are spent. Valid until the next
-  /// call.
-  const BranchPoint* drape_at(const VecX& u);
+  /// The drape of picture i at u; nothing where its branch is lost or max_solves are spent. Valid
+  /// until the next call.
+  const BranchPoint* drape_at(size_t i, const VecX& u);
 
-  Vec2 centre_of(const VecX& u) const;
+  Placement placement_at(size_t i, const VecX& u) const;
+  /// The nuisances' part of the largest allowed |u|; unbounded for z.
+  VecX bounds() const;
   /// Whether the last drape asked for that was not known yet was refused. A minimiser that shrinks
   /// its steps because of this has not converged.
   bool refused() const { return refused_; }
-  const ContinuationCost& work() const { return work_; }
+  int solves() const;
 
  private:
-  bool has_prior() const { return prior_log_sd_ > 0; }
-  double profile_weight() const;
+  VecX nuisances_of(size_t i, const VecX& u) const;
 
-  Potential potential_;
-  Scene scene_;
   ParameterSpace space_;
-  OutlineObservation observation_;
-  OutlineLoss loss_;
-  double prior_log_sd_;
+  std::vector<PictureMisfit> misfits_;
+  std::vector<int> first_nuisance_;  // in u, of each picture
+  int unknowns_;
+  // priors: rows of W (u - m), W the inverse of the covariance's factor
+  MatX prior_weight_;
   VecX prior_mean_;
   int max_solves_;
-  ContinuationOptions continuation_;
-  ContinuationCost work_;
   bool refused_ = false;
-  std::vector<BranchPoint> known_;  // the last one was reached last
 };
 
 }  // namespace drape

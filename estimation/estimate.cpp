@@ -1,6 +1,5 @@
 #include "estimation/estimate.h"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -12,7 +11,6 @@
 namespace drape {
 namespace {
 
-constexpr double kLargestCentre = 10;     // the unknowns of the centre are bounded to +-10 mm
 constexpr double kStageTolerance = 1e-3;  // relative cost change that ends a guided fit
 constexpr double kFinalTolerance =
     1e-6;  // and the last one, far below what noise leaves of the cost
@@ -20,95 +18,124 @@ constexpr double kFinalTolerance =
 /// One estimation from start to end; each method is one stage.
 class Estimation {
  public:
-  Estimation(const Potential& model, const Scene& scene, const OutlineObservation& observation,
-             const Fabric& start, const EstimateOptions& options)
-      : potential_(model),
-        scene_(scene),
-        observation_(observation),
-        options_(options),
-        objective_(model, scene, {options.parameters, start}, observation, options.loss,
-                   options.prior_log_sd, options.max_solves) {
+  Estimation(const std::vector<Picture>& pictures, const Fabric& start,
+             const EstimateOptions& options)
+      : options_(options),
+        guided_(!pictures.front().start_state),
+        objective_(pictures, {options.parameters, start}, options.prior, options.misfit,
+                   options.max_solves * static_cast<int>(pictures.size())) {
     result_.start = result_.fabric = start;
+    result_.pictures.resize(pictures.size());
     u_ = VecX::Zero(objective_.unknowns());
-    u_.head(objective_.space().size()) = objective_.space().encode(start);
-    potential_.set_fabric(start);
+    u_.head(space().size()) = space().encode(start);
+    for (const Picture& picture : pictures) {
+      potentials_.push_back(picture.model);
+      potentials_.back().set_fabric(start);
+      potentials_.back().set_guide(std::nullopt);
+    }
   }
 
-  Estimate run(const std::optional<Equilibrium>& start_state) {
+  Estimate run() {
     const double start_time = thread_cpu_seconds();
-    fit(start_state);
-    result_.forward_solves += objective_.work().solves;
+    fit();
+    result_.forward_solves += objective_.solves();
     result_.cpu_seconds = thread_cpu_seconds() - start_time;
     return std::move(result_);
   }
 
  private:
-  void fit(const std::optional<Equilibrium>& start_state) {
-    potential_.set_guide(std::nullopt);
-    if (start_state) {
-      result_.equilibrium = *start_state;
-      result_.contact.support = potential_.support().has_value();
-      result_.contact.reason = "As in the state that the fit starts from.";
-    } else if (!guided_start()) {
+  const ParameterSpace& space() const { return objective_.space(); }
+  size_t pictures() const { return potentials_.size(); }
+  const Picture& picture(size_t i) const { return objective_.picture(i); }
+
+  void fit() {
+    bool started = true;
+    for (size_t i = 0; i < pictures(); ++i) started = start(i) && started;
+    if (!started) {
       result_.outcome = EstimateOutcome::no_start;
       return;
     }
-    result_.start_profile = profile_of(result_.equilibrium);
-    if (!start_state)
+    if (guided_)
       for (double kappa : options_.guide) {
-        if (!set_guide(kappa)) return;
+        if (!set_guides(kappa)) return;
         fit_stage(kStageTolerance);
       }
-    if (!set_guide(0)) return;
+    if (!set_guides(0)) return;
     const Minimum minimum = fit_stage(kFinalTolerance);
+    result_.cost = minimum.cost;
     result_.outcome =
         minimum.converged ? EstimateOutcome::succeeded : EstimateOutcome::not_converged;
     finish();
   }
 
-  Guide guide_of(double kappa) const {
-    return {harmonics(observation_.profile, options_.guide_harmonics), objective_.centre_of(u_),
-            kappa};
+  static std::string named(size_t i) { return "picture " + std::to_string(i + 1); }
+
+  Guide guide_of(size_t i, double kappa) const {
+    return guide_towards(picture(i).seen, objective_.placement_at(i, u_), options_.guide_harmonics,
+                         kappa);
   }
 
-  bool guided_start() {
+  /// The first drape of a picture; false when there is none.
+  bool start(size_t i) {
+    PictureEstimate& own = result_.pictures[i];
+    if (guided_) {
+      if (!guided_start(i)) {
+        result_.message = "no guided drape for " + named(i);
+        return false;
+      }
+    } else {
+      own.equilibrium = *picture(i).start_state;
+      own.contact.support = potentials_[i].support().has_value();
+      own.contact.reason = "As in the state that the fit starts from.";
+    }
+    own.start_profile = profile_of(i);
+    return true;
+  }
+
+  bool guided_start(size_t i) {
+    PictureEstimate& own = result_.pictures[i];
     const double kappa = options_.guide.empty() ? 1 : options_.guide.front();
     result_.kappa = kappa;
-    const Guide guide = guide_of(kappa);
-    potential_.set_guide(guide);
+    const Guide guide = guide_of(i, kappa);
+    potentials_[i].set_guide(guide);
     ContactDrape start = drape_with_contact(
-        potential_, scene_, options_.contact,
+        potentials_[i], picture(i).scene, options_.contact,
         [&](const Potential& potential) {
-          return solve_under_guide(potential, scene_, guide, options_.equilibrium);
+          return solve_under_guide(potential, picture(i).scene, guide, options_.equilibrium);
         },
         options_.equilibrium);
-    result_.equilibrium = std::move(start.equilibrium);
-    result_.contact = std::move(start.contact);
-    const bool solved_again = result_.contact.support && options_.contact == ContactMode::automatic;
+    own.equilibrium = std::move(start.equilibrium);
+    own.contact = std::move(start.contact);
+    const bool solved_again = own.contact.support && options_.contact == ContactMode::automatic;
     result_.forward_solves += solved_again ? 2 : 1;
-    return result_.equilibrium.converged();
+    return own.equilibrium.converged();
   }
 
-  /// The drape at the current unknowns under another guide; false when there is none near-by.
-  bool set_guide(double kappa) {
-    potential_.set_fabric(result_.fabric);
-    potential_.set_guide(kappa > 0 ? std::optional(guide_of(kappa)) : std::nullopt);
-    Equilibrium equilibrium =
-        solve_equilibrium(potential_, result_.equilibrium.x, options_.equilibrium);
-    ++result_.forward_solves;
-    if (!equilibrium.converged()) {
+  /// The drapes at the current unknowns under other guides; false when one has none near-by.
+  bool set_guides(double kappa) {
+    std::vector<Equilibrium> drapes;
+    for (size_t i = 0; i < pictures(); ++i) {
+      Potential& potential = potentials_[i];
+      const Equilibrium& last = result_.pictures[i].equilibrium;
+      potential.set_fabric(result_.fabric);
+      potential.set_guide(kappa > 0 ? std::optional(guide_of(i, kappa)) : std::nullopt);
+      drapes.push_back(solve_equilibrium(potential, last.x, options_.equilibrium));
+      drapes.back().protocol = last.protocol;
+      ++result_.forward_solves;
+      if (drapes.back().converged()) continue;
       result_.outcome = EstimateOutcome::branch_lost;
-      result_.message = "no equilibrium at kappa = " + std::to_string(kappa);
+      result_.message = "no equilibrium at kappa = " + std::to_string(kappa) + " for " + named(i);
       finish();
       return false;
     }
-    equilibrium.protocol = result_.equilibrium.protocol;
     result_.kappa = kappa;
-    const ParameterSpace& space = objective_.space();
-    objective_.start_from(
-        potential_,
-        make_branch_point(potential_, space, u_.head(space.size()), std::move(equilibrium)),
-        kappa > 0 ? guided_continuation() : options_.continuation);
+    for (size_t i = 0; i < pictures(); ++i) {
+      result_.pictures[i].equilibrium = drapes[i];
+      objective_.start_from(
+          i, potentials_[i],
+          make_branch_point(potentials_[i], space(), u_.head(space().size()), std::move(drapes[i])),
+          kappa > 0 ? guided_continuation() : options_.continuation);
+    }
     return true;
   }
 
@@ -125,63 +152,72 @@ class Estimation {
     options.method = options_.method;
     options.max_iterations = options_.max_iterations;
     options.function_tolerance = tolerance;
-    const int p = objective_.space().size();
-    const VecX z = objective_.space().encode(result_.start);
-    options.lower = VecX::Constant(objective_.unknowns(), -kLargestCentre);
-    options.upper = VecX::Constant(objective_.unknowns(), kLargestCentre);
-    for (int i = 0; i < p; ++i) {
+    const VecX z = space().encode(result_.start);
+    options.upper = objective_.bounds();
+    options.lower = -options.upper;
+    for (int i = 0; i < space().size(); ++i) {
       const Parameter parameter = options_.parameters[static_cast<size_t>(i)];
       const double reach = std::log(options_.bound_factor);
       options.lower[i] = is_logarithmic(parameter) ? z[i] - reach : 0;
       options.upper[i] = is_logarithmic(parameter) ? z[i] + reach : 1;
     }
     const Minimum minimum = minimise(objective_, u_, options);
-    if (const BranchPoint* drape = objective_.drape_at(minimum.u)) {
-      u_ = minimum.u;
-      result_.fabric = objective_.space().decode(drape->z);
-      result_.equilibrium = drape->equilibrium;
-    }
+    if (keep_drapes(minimum.u)) u_ = minimum.u;
     result_.iterations += minimum.iterations;
     result_.message = minimum.message;
     return minimum;
   }
 
-  VecX profile_of(const Equilibrium& equilibrium) const {
-    const Outline outline = trace_outline(potential_.mesh(), scene_, equilibrium.x);
-    return radial_profile(outline.points, objective_.centre_of(u_)).radius;
+  /// The drapes of all pictures at u, if there are any.
+  bool keep_drapes(const VecX& u) {
+    std::vector<Equilibrium> drapes;
+    for (size_t i = 0; i < pictures(); ++i) {
+      const BranchPoint* drape = objective_.drape_at(i, u);
+      if (drape == nullptr) return false;
+      drapes.push_back(drape->equilibrium);
+    }
+    for (size_t i = 0; i < pictures(); ++i) result_.pictures[i].equilibrium = std::move(drapes[i]);
+    result_.fabric = space().decode(u.head(space().size()));
+    return true;
   }
 
-  /// Looks at the last state. What acts on it was decided at the start.
-  void check_last_contact() {
-    const VecX& x = result_.equilibrium.x;
-    std::string reason = std::move(result_.contact.reason);
-    result_.contact = check_contact(potential_, scene_, x);
-    result_.contact.reason = std::move(reason);
-    result_.contact_doubtful = would_choose_otherwise(potential_, result_.contact, x);
+  VecX profile_of(size_t i) const {
+    const Outline outline =
+        trace_outline(potentials_[i].mesh(), picture(i).scene, result_.pictures[i].equilibrium.x);
+    return radial_profile(objective_.placement_at(i, u_).seen(outline.points)).radius;
+  }
+
+  /// Looks at the last state of a picture. What acts on it was decided at the start.
+  void check_last_contact(size_t i) {
+    PictureEstimate& own = result_.pictures[i];
+    const VecX& x = own.equilibrium.x;
+    std::string reason = std::move(own.contact.reason);
+    own.contact = check_contact(potentials_[i], picture(i).scene, x);
+    own.contact.reason = std::move(reason);
+    own.contact_doubtful = would_choose_otherwise(potentials_[i], own.contact, x);
   }
 
   void finish() {
-    check_last_contact();
-    result_.centre = objective_.centre_of(u_);
-    result_.outline_rms = std::sqrt(
-        (profile_of(result_.equilibrium) - observation_.profile).squaredNorm() / kProfileSize);
+    for (size_t i = 0; i < pictures(); ++i) {
+      check_last_contact(i);
+      PictureEstimate& own = result_.pictures[i];
+      own.placement = objective_.placement_at(i, u_);
+      own.outline_rms =
+          std::sqrt((profile_of(i) - picture(i).seen.profile).squaredNorm() / kProfileSize);
+    }
     VecX r;
     MatX jacobian;
-    result_.log_sd = VecX::Constant(objective_.space().size(), std::nan(""));
     if (result_.outcome == EstimateOutcome::branch_lost ||
         !objective_.residuals_at(u_, r, &jacobian))
-      return;
-    const Eigen::CompleteOrthogonalDecomposition<MatX> qr(jacobian.transpose() * jacobian);
-    if (qr.rank() == jacobian.cols())
-      result_.log_sd =
-          qr.pseudoInverse().diagonal().head(objective_.space().size()).cwiseMax(0).cwiseSqrt();
+      jacobian.setZero(0, objective_.unknowns());  // nothing is known
+    result_.posterior = laplace(space(), u_.head(space().size()), jacobian,
+                                options_.prior ? options_.prior->covariance : MatX());
   }
 
-  Potential potential_;
-  Scene scene_;
-  OutlineObservation observation_;
   EstimateOptions options_;
+  bool guided_;
   DrapeObjective objective_;
+  std::vector<Potential> potentials_;  // with the last guides
   VecX u_;
   Estimate result_;
 };
@@ -202,17 +238,18 @@ std::string_view name(EstimateOutcome outcome) {
   return "unknown";
 }
 
-Estimate estimate(const Potential& model, const Scene& scene, const OutlineObservation& observation,
-                  const Fabric& start, const EstimateOptions& options,
-                  const std::optional<Equilibrium>& start_state) {
-  if (observation.profile.size() != kProfileSize || !observation.profile.allFinite())
-    throw std::invalid_argument("estimate: the observed profile must hold " +
-                                std::to_string(kProfileSize) + " finite radii");
+Estimate estimate(const std::vector<Picture>& pictures, const Fabric& start,
+                  const EstimateOptions& options) {
+  if (pictures.empty()) throw std::invalid_argument("estimate: no picture of the fabric is given");
   if (options.parameters.empty())
     throw std::invalid_argument("estimate: no parameters to estimate");
-  if (start_state && !start_state->converged())
-    throw std::invalid_argument("estimate: the start state is not a converged equilibrium");
-  return Estimation(model, scene, observation, start, options).run(start_state);
+  for (const Picture& picture : pictures) {
+    if (picture.start_state.has_value() != pictures.front().start_state.has_value())
+      throw std::invalid_argument("estimate: some pictures have a start state and some have not");
+    if (picture.start_state && !picture.start_state->converged())
+      throw std::invalid_argument("estimate: the start state is not a converged equilibrium");
+  }
+  return Estimation(pictures, start, options).run();
 }
 
 }  // namespace drape

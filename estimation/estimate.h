@@ -1,15 +1,18 @@
-// Estimation of fabric parameters from the outline of one drape.
+// Estimation of fabric parameters from pictures of its drapes: the maximum of the posterior, and
+// the posterior about it.
 //
-// The observation chooses the branch: the start is minimised under a guide that pulls the rim
-// towards the observed outline, and the fit itself runs on guided drapes while the guide is
-// released (kappa = 1, 0.1, 0.01, 0). Exact data have zero residual at the truth for every kappa,
-// so the guide biases nothing; without it a fit from elsewhere ends on a neighbouring branch. Only
-// a fit that ends with kappa = 0 on a certified minimum counts.
+// Each picture chooses the branch of its drape: the start is minimised under a guide that pulls the
+// rim towards the observed outline, and the fit itself runs on guided drapes while the guides of
+// all pictures are released together (kappa = 1, 0.1, 0.01, 0). Exact data have zero residual at
+// the truth for every kappa, so the guide biases nothing; without it a fit from elsewhere ends on a
+// neighbouring branch. Only a fit that ends with kappa = 0 on a certified minimum counts.
 //
 // Whether the support acts (core/contact.h) is decided once, at the guided start, and held from
 // there on: the loss stays continuous. The last state says whether it would have decided otherwise.
+// A picture that brings a start state keeps the support of its model.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +20,7 @@
 
 #include "core/contact.h"
 #include "estimation/minimise.h"
+#include "estimation/posterior.h"
 
 namespace drape {
 
@@ -24,50 +28,58 @@ struct EstimateOptions {
   std::vector<Parameter> parameters{Parameter::k_h, Parameter::k_bu, Parameter::k_bv,
                                     Parameter::k_bh};
   FitMethod method = FitMethod::levenberg_marquardt;
-  OutlineLoss loss = OutlineLoss::profile;
+  MisfitOptions misfit;
+  std::optional<Prior> prior;  ///< of the chosen parameters; none: flat within the bounds
   std::vector<double> guide{1, 0.1,
                             0.01};  ///< kappas before the unguided fit; empty: unguided only
   int guide_harmonics = 24;         ///< of the observed profile
   double bound_factor = 100;        ///< estimates stay within start / factor .. start * factor
-  double prior_log_sd = 0;          ///< of ln p about the start; 0: no prior
   int max_iterations = 60;          ///< of each fit
   ContactMode contact = ContactMode::automatic;  ///< with a start state, the model's is held
   EquilibriumOptions equilibrium;                ///< of the first, guided solve
   /// Along the unguided fit: trials that lose the branch are cheap to give up, Ceres shortens them.
   ContinuationOptions continuation{.halvings = 2, .largest_leap = 0.7};
-  int max_solves = 400;  ///< forward solves of one fit, over all stages
+  int max_solves = 400;  ///< forward solves of one fit a picture, over all stages
 };
 
+/// From good to bad.
 enum class EstimateOutcome {
   succeeded,      ///< guide released, converged, certified minimum
-  no_start,       ///< no guided drape was found for the first parameters
-  branch_lost,    ///< releasing the guide left the branch
   not_converged,  ///< iterations or solves ran out, or the last steps all left the branch
+  branch_lost,    ///< releasing the guide left the branch
+  no_start,       ///< no guided drape was found for the first parameters
 };
 std::string_view name(EstimateOutcome outcome);
+
+/// What became of one picture.
+struct PictureEstimate {
+  Equilibrium
+      equilibrium;      ///< of the estimated fabric, under the guide of strength Estimate::kappa
+  Placement placement;  ///< of the picture on this drape
+  Contact contact;      ///< held over the fit; what is seen of it in the last state
+  bool contact_doubtful = false;  ///< the last state would have decided otherwise
+  VecX start_profile;             ///< of the first drape, in the picture's frame [m]
+  double outline_rms = 0;         ///< of the profile's misfit [m]
+};
 
 struct Estimate {
   EstimateOutcome outcome = EstimateOutcome::no_start;
   Fabric start, fabric;
-  Equilibrium equilibrium;        ///< of `fabric`, under the guide `kappa`
-  double kappa = 0;               ///< of the last guide; 0 unless the branch was lost
-  Vec2 centre = Vec2::Zero();     ///< of the observation in the drape's frame [m]
-  Contact contact;                ///< held over the fit; what is seen of it in the last state
-  bool contact_doubtful = false;  ///< the last state would have decided otherwise
-  VecX start_profile;             ///< of the first drape [m]
-  VecX log_sd;                    ///< Gauss-Newton standard deviations of the unknowns
-  double outline_rms = 0;         ///< of the profile's misfit [m]
+  double kappa = 0;  ///< of the last guide; 0 unless the branch was lost
+  std::vector<PictureEstimate> pictures;
+  Posterior posterior;  ///< NaN unless the guide is gone
+  /// Minus the logarithm of the posterior, up to a constant; infinite unless the guide is gone.
+  double cost = std::numeric_limits<double>::infinity();
   int iterations = 0;
   int forward_solves = 0;
   double cpu_seconds = 0;
   std::string message;
 };
 
-/// `model` gives mesh, bending reading and gravity. With `start_state`, an equilibrium of `start`
-/// without guide, the fit is unguided from there; otherwise see above. Throws std::invalid_argument
-/// on bad input only.
-Estimate estimate(const Potential& model, const Scene& scene, const OutlineObservation& observation,
-                  const Fabric& start, const EstimateOptions& options,
-                  const std::optional<Equilibrium>& start_state = std::nullopt);
+/// `start`: the first fabric; it also holds the values of the parameters that are not estimated.
+/// Where all pictures bring a start state, the fit is unguided from there; otherwise see above.
+/// Throws std::invalid_argument on bad input only.
+Estimate estimate(const std::vector<Picture>& pictures, const Fabric& start,
+                  const EstimateOptions& options);
 
 }  // namespace drape

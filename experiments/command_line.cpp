@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/version.h"
+#include "experiments/config_text.h"
 #include "experiments/spelling.h"
 
 namespace drape {
@@ -52,8 +53,8 @@ std::string list_text(const std::vector<std::string>& entries) {
 }  // namespace
 
 std::optional<CommandLine> parse_command_line(int argc, const char* const* argv) {
-  std::string file, out, threads, query, photo, mm_per_pixel, density, dataset;
-  std::vector<std::string> sets, records;
+  std::string file, out, threads, query, mm_per_pixel, density, warp_angle, dataset;
+  std::vector<std::string> sets, records, photos;
 
   CLI::App app("Drape: fabric parameters in, drapes out; silhouettes in, fabric parameters out.",
                "drape");
@@ -89,15 +90,23 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   info->add_option("FILE", file, "Records in HDF5")->type_name("")->required();
 
   CLI::App* estimate = app.add_subcommand(
-      "estimate", "Estimate parameters from a photograph, a dataset, or as a config says");
+      "estimate", "Estimate parameters from photographs, a dataset, or as a config says");
   estimate->add_option("CONFIG", file, "Config in TOML for what no option says")->type_name("");
   CLI::Option* photo_option =
-      estimate->add_option("--photo", photo, "PNG or JPEG with one silhouette")->type_name("FILE");
+      estimate
+          ->add_option("--photo", photos, "PNG or JPEG with one silhouette; several of one fabric")
+          ->type_name("FILE");
   estimate->add_option("--mm-per-pixel", mm_per_pixel, "Size of a pixel")
       ->type_name("MM")
       ->needs(photo_option);
   estimate->add_option("--density", density, "Mass per area of the fabric, kg/m^2")
       ->type_name("D")
+      ->needs(photo_option);
+  estimate
+      ->add_option("--warp-angle", warp_angle,
+                   "Direction of the warp, degrees counter-clockwise from the right; without it "
+                   "several are tried")
+      ->type_name("DEG")
       ->needs(photo_option);
   CLI::Option* dataset_option =
       estimate->add_option("--dataset", dataset, "A results.h5 with observations")
@@ -129,18 +138,24 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   if (!file.empty()) line.file = file;
   line.out = out;
   line.query = query;
-  if (line.command == Command::estimate && file.empty() && photo.empty() && dataset.empty())
+  if (line.command == Command::estimate && file.empty() && photos.empty() && dataset.empty())
     throw UsageError("estimate needs --photo FILE, --dataset FILE or a CONFIG\nMore with --help.");
 
   // The values go through the same checks as those of a file. What --set says comes last.
   const auto assign = [&](const char* key, const std::string& value, const std::string& origin) {
     if (!value.empty()) line.assignments.push_back({key, value, origin + " " + value});
   };
-  if (!photo.empty()) assign("experiment.kind", "photograph", "--photo");
+  if (!photos.empty()) {
+    assign("experiment.kind", "photograph", "--photo");
+    line.assignments.push_back({"photograph.files", format_value(photos), "--photo"});
+  }
   if (!dataset.empty()) assign("experiment.kind", "estimate", "--dataset");
-  assign("photograph.file", photo, "--photo");
   assign("photograph.mm_per_pixel", mm_per_pixel, "--mm-per-pixel");
   assign("photograph.areal_density", density, "--density");
+  if (!warp_angle.empty()) {
+    assign("photograph.warp_angles", "[" + warp_angle + "]", "--warp-angle");
+    assign("photograph.warp_angle_sd", "0", "--warp-angle");
+  }
   assign("estimate.dataset", dataset, "--dataset");
   if (!records.empty()) assign("estimate.records", list_text(records), "--records");
   assign("experiment.threads", threads, "--threads");

@@ -106,9 +106,9 @@ std::string path(const ConfigKey& key, const toml::node& node,
 }
 
 // Distinct entries; at least one, unless the key's default is the empty list.
-template <class Entry>
-std::vector<Entry> list(const ConfigKey& key, const toml::node& node,
-                        Entry (*entry_of)(const ConfigKey&, const toml::node&)) {
+template <class EntryOf,
+          class Entry = std::invoke_result_t<EntryOf, const ConfigKey&, const toml::node&>>
+std::vector<Entry> list(const ConfigKey& key, const toml::node& node, const EntryOf& entry_of) {
   const toml::array* array = node.as_array();
   if (!array) refuse_type(key, node);
   std::vector<Entry> entries;
@@ -147,6 +147,10 @@ ConfigValue value_of(const ConfigKey& key, const toml::node& node,
       return list(key, node, number);
     case ValueType::choices:
       return list(key, node, choice);
+    case ValueType::paths:
+      return list(key, node, [&folder](const ConfigKey& k, const toml::node& n) {
+        return path(k, n, folder);
+      });
   }
   return {};
 }
@@ -285,15 +289,18 @@ void check_together(const Loaded& loaded, const std::string& name) {
     refuse(support ? "scene.support_radius" : "scene.specimen_radius", error.what());
   }
   for (const ConfigKey& key : config_keys()) {
-    if (key.type != ValueType::path || key.full_name() == "quickstart.photograph") continue;
-    const std::string file = std::get<std::string>(key.get(settings));
+    if (key.full_name() == "quickstart.photograph") continue;
+    std::vector<std::string> files;
+    if (key.type == ValueType::path) files = {std::get<std::string>(key.get(settings))};
+    if (key.type == ValueType::paths) files = std::get<std::vector<std::string>>(key.get(settings));
     std::error_code error;
-    if (!file.empty() && !std::filesystem::is_regular_file(file, error))
-      refuse(key.full_name(), key.full_name() + ": there is no file " + file);
+    for (const std::string& file : files)
+      if (!file.empty() && !std::filesystem::is_regular_file(file, error))
+        refuse(key.full_name(), key.full_name() + ": there is no file " + file);
   }
   if (kind == Kind::photograph) {
-    if (settings.photograph.file.empty())
-      refuse("experiment.kind", "a photograph needs photograph.file");
+    if (settings.photograph.files.empty())
+      refuse("experiment.kind", "a photograph needs photograph.files");
     if (!(settings.photograph.mm_per_pixel > 0))
       refuse("photograph.mm_per_pixel", "a photograph needs photograph.mm_per_pixel > 0");
     if (!(settings.photograph.areal_density > 0))

@@ -47,8 +47,19 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("estimate", "add_noise", "", kAny,
       "Add smooth noise of that standard deviation to the profiles of a dataset.",
       DRAPE_MEMBER(estimate.add_noise));
-  add("estimate", "prior_log_sd", "", kNotNegative,
-      "Standard deviation of the prior on each log parameter about its start; 0 for no prior.",
+  add("estimate", "noise_harmonics", "", {0, 179, true},
+      "The errors of the radii fill the harmonics from 0 to this one: a profile has 2 n + 1 "
+      "independent values.",
+      DRAPE_MEMBER(estimate.noise_harmonics));
+  add("estimate", "huber", "", kNotNegative,
+      "Misses of a radius beyond this many standard deviations count linearly; 0 for none.",
+      DRAPE_MEMBER(estimate.huber));
+  add("estimate", "prior", "", kAny,
+      "What is known before the outline is seen: nothing, each parameter about its start "
+      "(prior_log_sd), or what the structure and the weight say, correlations included.",
+      DRAPE_MEMBER(estimate.prior));
+  add("estimate", "prior_log_sd", "", kPositive,
+      "prior = \"start\": standard deviation of each log parameter about its start.",
       DRAPE_MEMBER(estimate.prior_log_sd));
   add("estimate", "start", "", kAny,
       "First drape of a fit: \"guided\" by the observed outline, or, where the target's "
@@ -62,8 +73,10 @@ void add_keys_of_kinds(ConfigKeyList& add) {
       "Harmonics of the profile that start and guide follow.",
       DRAPE_MEMBER(estimate.guide_harmonics));
 
-  add("photograph", "file", "", kAny, "PNG or JPEG with one silhouette, seen from above.",
-      DRAPE_MEMBER(photograph.file));
+  add("photograph", "files", "", kAny,
+      "PNG or JPEG with one silhouette each, seen from above: pictures of one fabric's specimens, "
+      "fitted together.",
+      DRAPE_MEMBER(photograph.files));
   add("photograph", "mm_per_pixel", "mm", kNotNegative,
       "Size of a pixel in the plane of the drape; must be given for a photograph.",
       DRAPE_MEMBER(photograph.mm_per_pixel));
@@ -75,9 +88,18 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("photograph", "outline_noise", "m", kPositive,
       "Standard deviation of an observed radius, model error included.",
       DRAPE_MEMBER(photograph.outline_noise));
-  add("photograph", "prior_log_sd", "", kNotNegative,
-      "Standard deviation of the prior on each log parameter about the tag's; 0 for no prior.",
-      DRAPE_MEMBER(photograph.prior_log_sd));
+  add("photograph", "warp_angles", "deg", {-360, 360, true},
+      "Direction of the warp in the pictures, counter-clockwise from their right. Several: not "
+      "known, each is a start and the best posterior is kept; 180 more is the same.",
+      DRAPE_MEMBER(photograph.warp_angles));
+  add("photograph", "warp_angle_sd", "deg", {0, 90, true},
+      "Standard deviation of the true direction about it; 0 where it is known.",
+      DRAPE_MEMBER(photograph.warp_angle_sd));
+  add("photograph", "scale_log_sd", "", {0, 1, true},
+      "Relative standard deviation of mm_per_pixel, picture by picture; 0 where it is known.",
+      DRAPE_MEMBER(photograph.scale_log_sd));
+  add("photograph", "prior", "", kAny, "As estimate.prior; the start comes from the weight.",
+      DRAPE_MEMBER(photograph.prior));
 
   add("gradient_check", "fabrics", "", at_least(1), "Number of random fabrics.",
       DRAPE_MEMBER(gradient_check.fabrics));

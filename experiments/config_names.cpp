@@ -37,6 +37,10 @@ std::vector<std::string> names_of<EstimateStart>() {
   return {"guided", "continued"};
 }
 template <>
+std::vector<std::string> names_of<PriorKind>() {
+  return {"none", "start", "weight"};
+}
+template <>
 std::vector<std::string> names_of<Structure>() {
   return {"woven", "knit", "other"};
 }

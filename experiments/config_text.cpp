@@ -174,6 +174,8 @@ std::string allowed_text(const ConfigKey& key) {
       return "a list of finite numbers" + range;
     case ValueType::choices:
       return "a list of " + join(quoted);
+    case ValueType::paths:
+      return "a list of paths of files, relative to the config's folder";
   }
   return {};
 }

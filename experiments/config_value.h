@@ -23,7 +23,8 @@ enum class ValueType {
   path,
   integers,
   numbers,
-  choices
+  choices,
+  paths
 };
 
 /// What a value of type integer_or_auto is where the program is to choose.
@@ -104,6 +105,18 @@ struct Conversion<std::filesystem::path> {
   static ConfigValue to_value(const std::filesystem::path& member) { return member.string(); }
   static std::filesystem::path from_value(const ConfigValue& value) {
     return std::get<std::string>(value);
+  }
+};
+
+template <>
+struct Conversion<std::vector<std::filesystem::path>> {
+  static constexpr ValueType kType = ValueType::paths;
+  static ConfigValue to_value(const std::vector<std::filesystem::path>& member) {
+    return std::vector<std::string>(member.begin(), member.end());
+  }
+  static std::vector<std::filesystem::path> from_value(const ConfigValue& value) {
+    const auto& names = std::get<std::vector<std::string>>(value);
+    return {names.begin(), names.end()};
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "experiments/interrupt.h"
+#include "experiments/interval_coverage.h"
 #include "experiments/kinds.h"
 #include "experiments/model.h"
 #include "experiments/parallel_items.h"
@@ -149,6 +150,8 @@ nlohmann::ordered_json summarise(const Settings& settings, const std::vector<Rec
     summary["median_parameter_error"][parameter] = median(error[i]);
     summary["identifiable"][parameter] = succeeded > 0 ? 1.0 * identifiable[i] / succeeded : 0.0;
   }
+  summary["coverage_68"] = interval_coverage(records, settings.estimate.parameters, k68);
+  summary["coverage_95"] = interval_coverage(records, settings.estimate.parameters, k95);
   summary["median_outline_rms_mm"] = median(rms);
   summary["median_drape_coefficient_error"] = median(dc_error);
   summary["iou_median"] = median(iou);

@@ -56,7 +56,7 @@ RunOutcome run_quickstart(const Settings& settings, OutputFolder& folder) {
 
   if (!quickstart.photograph.empty() && std::filesystem::exists(quickstart.photograph)) {
     Settings photograph = settings;
-    photograph.photograph.file = quickstart.photograph;
+    photograph.photograph.files = {quickstart.photograph};
     photograph.photograph.mm_per_pixel = quickstart.mm_per_pixel;
     photograph.photograph.areal_density = quickstart.areal_density;
     photograph.estimate.method = FitMethod::levenberg_marquardt;

@@ -64,8 +64,8 @@ void check_inputs(const Settings& settings) {
   const Kind kind = settings.experiment.kind;
   if (settings.start.protocol == StartProtocol::guided) start_profile(settings);
   if (kind == Kind::photograph)
-    read_photograph(settings.photograph.file, 1e-3 * settings.photograph.mm_per_pixel,
-                    settings.scene);
+    for (const std::filesystem::path& file : settings.photograph.files)
+      read_photograph(file, 1e-3 * settings.photograph.mm_per_pixel, settings.scene);
   else if (kind == Kind::estimate && !settings.estimate.dataset.empty())
     read_header(settings.estimate.dataset);
   else if (kind == Kind::dataset && !settings.dataset.table.empty())

@@ -1,10 +1,12 @@
 #include "experiments/recovery.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "core/profile.h"
 #include "core/random.h"
+#include "estimation/bending_rigidity.h"
 #include "experiments/model.h"
 
 namespace drape {
@@ -12,7 +14,6 @@ namespace {
 
 constexpr double kSharedBranch = 1e-6;  // [m]
 constexpr double kBranchStep = 0.1;     // of a log parameter: small beside the snaps of a drape
-constexpr int kNoiseHarmonics = 15;
 constexpr double kPi = 3.14159265358979323846;
 
 /// The target's own branch at the first parameters of a fit, if there is one, and whether following
@@ -56,14 +57,17 @@ Fabric perturbed(const Fabric& truth, const EstimateSettings& settings, std::uin
   return fabric;
 }
 
-VecX with_noise(const VecX& profile, double sd, std::uint64_t seed) {
+VecX with_noise(const VecX& profile, double sd, int harmonic_count, std::uint64_t seed) {
   Random random(seed);
   VecX noise = VecX::Zero(profile.size());
-  for (int k = 0; k <= kNoiseHarmonics; ++k) {
+  for (int k = 0; k <= harmonic_count; ++k) {
+    // the mean is one value and each further harmonic two: all have the same variance
+    const double amplitude = k == 0 ? std::sqrt(0.5) : 1;
     const double phase = random.uniform(0, 2 * kPi);
     for (Eigen::Index i = 0; i < profile.size(); ++i)
-      noise[i] += std::cos(
-          2 * kPi * k * static_cast<double>(i) / static_cast<double>(profile.size()) + phase);
+      noise[i] += amplitude * std::cos(2 * kPi * k * static_cast<double>(i) /
+                                           static_cast<double>(profile.size()) +
+                                       phase);
   }
   return profile +
          sd / std::sqrt((noise.squaredNorm() / static_cast<double>(noise.size()))) * noise;
@@ -73,11 +77,10 @@ EstimateOptions estimate_options(const Settings& settings) {
   EstimateOptions options;
   options.parameters = settings.estimate.parameters;
   options.method = settings.estimate.method;
-  options.loss = settings.estimate.loss;
+  options.misfit = {settings.estimate.loss, settings.estimate.huber};
   options.guide = settings.estimate.guide;
   options.guide_harmonics = settings.estimate.guide_harmonics;
   options.bound_factor = settings.estimate.bounds;
-  options.prior_log_sd = settings.estimate.prior_log_sd;
   options.max_iterations = settings.estimate.max_iterations;
   options.contact = settings.contact;
   options.equilibrium = equilibrium_options(settings);
@@ -85,63 +88,87 @@ EstimateOptions estimate_options(const Settings& settings) {
   return options;
 }
 
+std::optional<Prior> fit_prior(const Settings& settings, PriorKind kind, Structure structure,
+                               const Fabric& start) {
+  const std::vector<Parameter>& parameters = settings.estimate.parameters;
+  switch (kind) {
+    case PriorKind::none:
+      return std::nullopt;
+    case PriorKind::start:
+      return prior_about({parameters, start}, start, settings.estimate.prior_log_sd);
+    case PriorKind::weight:
+      return prior_from_weight(parameters, structure, start.areal_density);
+  }
+  throw std::logic_error("a prior without a function");
+}
+
 EstimateRecord recover(const Settings& settings, const Potential& model, const Record& record,
                        const RecordsHeader& header, std::uint64_t seed) {
-  const EstimateOptions options = estimate_options(settings);
+  EstimateOptions options = estimate_options(settings);
   OutlineObservation observation;
   observation.noise = settings.estimate.outline_noise;
-  observation.profile =
-      settings.estimate.add_noise
-          ? with_noise(record.observation.profile, observation.noise, seed_of_item(seed, 1))
-          : record.observation.profile;
+  observation.noise_harmonics = settings.estimate.noise_harmonics;
+  observation.profile = settings.estimate.add_noise
+                            ? with_noise(record.observation.profile, observation.noise,
+                                         observation.noise_harmonics, seed_of_item(seed, 1))
+                            : record.observation.profile;
   observation.grid = header.grid;
   observation.coverage = record.observation.coverage;
 
   const Fabric start = perturbed(record.fabric, settings.estimate, seed);
+  const Structure structure =
+      record.category.empty() ? Structure::woven : structure_from_category(record.category);
+  options.prior = fit_prior(settings, settings.estimate.prior, structure, start);
   Potential target = model;  // what acted on the target acts on its branch
   target.set_support(record.stats.contact == "support"
                          ? std::optional(support_contact(header.scene))
                          : std::nullopt);
   const BranchTest branch = follow_target(target, record, start, options);
   const bool continued = settings.estimate.start == EstimateStart::continued && branch.shared;
-  const Estimate result = estimate(target, header.scene, observation, start, options,
-                                   continued ? branch.start : std::nullopt);
+  const Picture picture{target, header.scene, observation, continued ? branch.start : std::nullopt};
+  const Estimate result = estimate({picture}, start, options);
   EstimateRecord kept =
-      estimate_record(model, header.scene, result, observation, options.parameters);
+      estimate_record(picture, result.pictures.front(), result, options.parameters);
   kept.branch_shared = branch.shared;
   return kept;
 }
 
-EstimateRecord estimate_record(const Potential& model, const Scene& scene, const Estimate& estimate,
-                               const OutlineObservation& observation,
-                               const std::vector<Parameter>& parameters) {
-  Potential potential = model;
+EstimateRecord estimate_record(const Picture& picture, const PictureEstimate& drape,
+                               const Estimate& estimate, const std::vector<Parameter>& parameters) {
+  Potential potential = picture.model;
   potential.set_fabric(estimate.fabric);
-  potential.set_support(estimate.contact.support ? std::optional(support_contact(scene))
-                                                 : std::nullopt);
+  potential.set_support(drape.contact.support ? std::optional(support_contact(picture.scene))
+                                              : std::nullopt);
   EstimateRecord kept;
   kept.fabric = estimate.fabric;
   kept.start = estimate.start;
   kept.outcome = std::string(name(estimate.outcome));
-  kept.log_sd = ParameterVector::Constant(std::nan(""));
-  if (estimate.log_sd.size() == static_cast<Eigen::Index>(parameters.size()))
-    for (size_t i = 0; i < parameters.size(); ++i)
-      kept.log_sd[static_cast<int>(parameters[i])] = estimate.log_sd[static_cast<Eigen::Index>(i)];
-  kept.positions = estimate.equilibrium.x;
-  kept.stats = solve_stats(potential, scene, estimate.equilibrium);
+  const Posterior& posterior = estimate.posterior;
+  if (posterior.log_sd.size() > 0) {
+    for (size_t i = 0; i < parameters.size(); ++i) {
+      kept.log_sd[static_cast<int>(parameters[i])] = posterior.log_sd[static_cast<Eigen::Index>(i)];
+      kept.picture_share[static_cast<int>(parameters[i])] =
+          posterior.picture_share[static_cast<Eigen::Index>(i)];
+    }
+    kept.rigidity_log_sd.head<3>() = posterior.rigidity_log_sd;
+  }
+  kept.rigidity.head<3>() = effective_rigidity(estimate.fabric);
+  kept.positions = drape.equilibrium.x;
+  kept.stats = solve_stats(potential, picture.scene, drape.equilibrium);
   kept.stats.cpu_seconds = estimate.cpu_seconds;
   kept.forward_solves = estimate.forward_solves;
-  kept.outline_rms = estimate.outline_rms;
-  kept.start_profile = estimate.start_profile.size() > 0
-                           ? estimate.start_profile
-                           : VecX::Constant(kProfileSize, std::nan(""));
-  Outline outline = trace_outline(model.mesh(), scene, estimate.equilibrium.x);
-  kept.drape_coefficient = drape_coefficient(scene, area(outline.points));
-  outline.points.rowwise() -= estimate.centre.transpose();  // into the observation's frame
-  kept.profile = radial_profile(outline.points).radius;
+  kept.outline_rms = drape.outline_rms;
+  kept.centre.head<2>() = drape.placement.centre;
+  kept.weft_angle = drape.placement.weft_angle;
+  kept.log_scale = drape.placement.log_scale;
+  kept.start_profile = drape.start_profile.size() > 0 ? drape.start_profile
+                                                      : VecX::Constant(kProfileSize, std::nan(""));
+  const Outline outline = trace_outline(potential.mesh(), picture.scene, drape.equilibrium.x);
+  kept.drape_coefficient = drape_coefficient(picture.scene, area(outline.points));
+  const Points2 seen = drape.placement.seen(outline.points);
+  kept.profile = radial_profile(seen).radius;
   kept.node_count = node_count(kept.profile);
-  kept.iou =
-      intersection_over_union(coverage(outline.points, observation.grid), observation.coverage);
+  kept.iou = intersection_over_union(coverage(seen, picture.seen.grid), picture.seen.coverage);
   return kept;
 }
 

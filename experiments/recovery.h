@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/potential.h"
 #include "core/records.h"
@@ -13,10 +14,16 @@ namespace drape {
 /// by the seed) divided by it.
 Fabric perturbed(const Fabric& truth, const EstimateSettings& settings, std::uint64_t seed);
 
-/// Adds smooth noise of standard deviation `sd` [m] to a profile: harmonics 0 to 15, random phases.
-VecX with_noise(const VecX& profile, double sd, std::uint64_t seed);
+/// Adds smooth noise of standard deviation `sd` [m] to a profile: harmonics 0 to `harmonic_count`,
+/// random phases.
+VecX with_noise(const VecX& profile, double sd, int harmonic_count, std::uint64_t seed);
 
+/// Without a prior: where there is one it needs the fabric, see fit_prior.
 EstimateOptions estimate_options(const Settings& settings);
+
+/// The prior of the estimated parameters; none for PriorKind::none.
+std::optional<Prior> fit_prior(const Settings& settings, PriorKind kind, Structure structure,
+                               const Fabric& start);
 
 /// Estimates the parameters of a record from its profile (or coverage). `model` gives mesh, reading
 /// and gravity. The record's own equilibrium, where it has one, is used for two things: to say
@@ -25,9 +32,8 @@ EstimateOptions estimate_options(const Settings& settings);
 EstimateRecord recover(const Settings& settings, const Potential& model, const Record& record,
                        const RecordsHeader& header, std::uint64_t seed);
 
-/// What is seen of an estimate and how it went, as a record keeps it.
-EstimateRecord estimate_record(const Potential& model, const Scene& scene, const Estimate& estimate,
-                               const OutlineObservation& observation,
-                               const std::vector<Parameter>& parameters);
+/// What is seen of an estimate in one of its pictures and how it went, as a record keeps it.
+EstimateRecord estimate_record(const Picture& picture, const PictureEstimate& drape,
+                               const Estimate& estimate, const std::vector<Parameter>& parameters);
 
 }  // namespace drape

@@ -94,6 +94,9 @@ enum class EstimateStart {
   continued,  ///< a known target's own equilibrium, followed to the first parameters
 };
 
+/// What is known of a fabric before its outline is seen.
+enum class PriorKind { none, start, weight };
+
 struct EstimateSettings {
   int fabrics = 20;
   std::filesystem::path dataset;  ///< empty: random fabrics
@@ -107,8 +110,11 @@ struct EstimateSettings {
   int max_iterations = 60;
   double bounds = 100;
   double outline_noise = 5e-4;  ///< [m]
+  int noise_harmonics = 15;
   bool add_noise = false;
-  double prior_log_sd = 0;  ///< 0: no prior
+  double huber = 0;  ///< in standard deviations; 0: none
+  PriorKind prior = PriorKind::none;
+  double prior_log_sd = 1;  ///< of PriorKind::start
   EstimateStart start = EstimateStart::guided;
   int guide_harmonics = 24;
   std::vector<double> guide{1, 0.1, 0.01};
@@ -145,12 +151,15 @@ struct QuickstartSettings {
 };
 
 struct PhotographSettings {
-  std::filesystem::path file;
+  std::vector<std::filesystem::path> files;
   double mm_per_pixel = 0;   ///< [mm]; 0: not given
   double areal_density = 0;  ///< [kg/m^2]; 0: not given
   Structure structure = Structure::woven;
-  double outline_noise = 1e-3;  ///< [m]
-  double prior_log_sd = 1;      ///< 0: no prior
+  double outline_noise = 3e-3;  ///< [m]; free drapes miss photographs by 1.7 to 4.3 mm
+  std::vector<double> warp_angles{0, 45, 90, 135};  ///< [deg]
+  double warp_angle_sd = 25;                        ///< [deg]; 0: known
+  double scale_log_sd = 0.005;                      ///< 0: known
+  PriorKind prior = PriorKind::weight;
 };
 
 struct ValidationSettings {

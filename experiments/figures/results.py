@@ -17,6 +17,9 @@ class Estimate:
     positions: np.ndarray
     profile: np.ndarray
     start_profile: np.ndarray
+    weft_angle: float  # in the picture, from +x
+    rigidity: np.ndarray  # effective B_u, B_v, B_45; NaN in files of version 2 and older
+    rigidity_log_sd: np.ndarray
     outline_rms: float
     iou: float
     drape_coefficient: float
@@ -121,6 +124,9 @@ def _estimate(row):
         positions=row["sim_estimated/positions"],
         profile=row["estimate/profile"],
         start_profile=row["estimate/start_profile"],
+        weft_angle=float(row.get("estimate/weft_angle", 0)),
+        rigidity=row.get("estimate/effective_rigidity", np.full(3, np.nan)),
+        rigidity_log_sd=row.get("estimate/effective_rigidity_log_sd", np.full(3, np.nan)),
         outline_rms=float(row["estimate/outline_rms"]),
         iou=float(row["estimate/iou"]),
         drape_coefficient=float(row["estimate/drape_coefficient"]),

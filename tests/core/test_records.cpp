@@ -25,7 +25,7 @@ TEST_F(Records, ContactForcesWhereContactActs) {
   EXPECT_EQ(read_header(file_).scene.column_radius, header_.scene.column_radius);
 }
 
-TEST_F(Records, AFileOfVersionOneKnowsNothingOfContact) {
+TEST_F(Records, AFileOfVersionOneLacksWhatIsYounger) {
   Record record = make_record(0, header_);
   record.estimate = make_estimate(0, header_);
   write_records(file_, header_, {record});
@@ -38,12 +38,22 @@ TEST_F(Records, AFileOfVersionOneKnowsNothingOfContact) {
     for (const std::string group : {"/stats", "/stats_estimated"})
       for (const char* column : {"/contact", "/self_intersections", "/support_penetration"})
         ASSERT_GE(H5Ldelete(file, (group + column).c_str(), H5P_DEFAULT), 0);
+    for (const char* younger :
+         {"/params_estimated_picture_share", "/estimate/centre", "/estimate/weft_angle",
+          "/estimate/log_scale", "/estimate/effective_rigidity",
+          "/estimate/effective_rigidity_log_sd"})
+      ASSERT_GE(H5Ldelete(file, younger, H5P_DEFAULT), 0);
   });
   for (SolveStats* stats : {&record.stats, &record.estimate->stats}) {
     stats->contact = "off";
     stats->self_intersections = -1;
     stats->support_penetration = kNaN;
   }
+  record.estimate->picture_share.setConstant(kNaN);
+  record.estimate->centre.setZero();
+  record.estimate->weft_angle = record.estimate->log_scale = 0;
+  record.estimate->rigidity.setConstant(kNaN);
+  record.estimate->rigidity_log_sd.setConstant(kNaN);
   expect_same(read_records(file_).at(0), record);
   EXPECT_EQ(read_header(file_).scene.column_radius, 0);
   EXPECT_TRUE(contains(describe_records(file_), "drape-records 1,"));

@@ -56,8 +56,8 @@ TEST_F(Records, WhatIsWrongInAFileIsNamed) {
   };
   named([](hid_t file) { overwrite_text(file, "schema", "other"); },
         "has the schema \"other\", must be \"drape-records\"");
-  named([](hid_t file) { overwrite_number(file, "/", "version", 3); },
-        "has version 3 of drape-records, this program reads versions 1 to 2: use a newer program");
+  named([](hid_t file) { overwrite_number(file, "/", "version", 4); },
+        "has version 4 of drape-records, this program reads versions 1 to 3: use a newer program");
   named([](hid_t file) { H5Adelete(file, "gravity"); }, "attribute gravity of / is missing");
   named([](hid_t file) { overwrite_number(file, "/", "gravity", -1); }, "scene gravity = -1");
   named([](hid_t file) { overwrite_text(file, "bending_law", "cubic"); }, "bending law 'cubic'");

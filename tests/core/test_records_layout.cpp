@@ -32,7 +32,8 @@ TEST_F(Records, LayoutOnDisk) {
   EXPECT_EQ(shape("/mesh/disc_7/rest_uv"), (Sizes{7, 2}));
   EXPECT_EQ(shape("/mesh/disc_7/triangles"), (Sizes{6, 3}));
   EXPECT_EQ(shape("/mesh/disc_7/fixed"), (Sizes{7}));
-  for (const char* group : {"/params/", "/params_estimated/", "/params_estimated_log_sd/"})
+  for (const char* group : {"/params/", "/params_estimated/", "/params_estimated_log_sd/",
+                            "/params_estimated_picture_share/"})
     for (Parameter p : all_parameters())
       EXPECT_EQ(shape(group + std::string(name(p))), (Sizes{2})) << name(p);
   for (const char* path :
@@ -43,6 +44,8 @@ TEST_F(Records, LayoutOnDisk) {
     EXPECT_EQ(shape(path), (Sizes{2})) << path;
   EXPECT_EQ(shape("/sim/positions"), (Sizes{2, 7, 3}));
   EXPECT_EQ(shape("/sim_estimated/positions"), (Sizes{2, 7, 3}));
+  EXPECT_EQ(shape("/estimate/effective_rigidity"), (Sizes{2, 3}));
+  EXPECT_EQ(shape("/estimate/effective_rigidity_log_sd"), (Sizes{2, 3}));
   EXPECT_EQ(shape("/observation/profile"), (Sizes{2, 360}));
   EXPECT_EQ(shape("/observation/coverage"), (Sizes{2, 5, 8}));
   for (const char* attribute : {"schema", "version", "config", "seed", "git_commit", "compiler",

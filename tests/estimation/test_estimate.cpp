@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "core/disc_mesh.h"
 #include "core/drape_protocol.h"
 #include "estimation/estimate.h"
 #include "tests/support/shapes.h"
@@ -33,6 +34,10 @@ struct Truth {
     fabric.k_bv *= 2;
     fabric.k_bh /= 2;
     return fabric;
+  }
+
+  Picture picture(std::optional<Equilibrium> start_state = std::nullopt) const {
+    return {potential, kCusick, seen, std::move(start_state)};
   }
 
   Potential potential;
@@ -62,23 +67,23 @@ RecoveryError recovery_error(const Estimate& estimate) {
 // the noise; k_h hardly shows in the outline of a stiff fabric.
 void expect_recovered(const Estimate& found) {
   EXPECT_EQ(found.outcome, EstimateOutcome::succeeded) << name(found.outcome) << found.message;
-  EXPECT_TRUE(found.equilibrium.converged());
-  EXPECT_EQ(found.equilibrium.negative_eigenvalues, 0);
+  EXPECT_TRUE(found.pictures[0].equilibrium.converged());
+  EXPECT_EQ(found.pictures[0].equilibrium.negative_eigenvalues, 0);
   EXPECT_EQ(found.kappa, 0);
   EXPECT_LE(recovery_error(found).bending, 0.02);
   EXPECT_LE(recovery_error(found).shear, 0.1);
-  EXPECT_LE(found.outline_rms, 1e-5);
-  ASSERT_EQ(found.log_sd.size(), 4);
-  EXPECT_TRUE(found.log_sd.allFinite());
-  EXPECT_GT(found.log_sd.minCoeff(), 0);
+  EXPECT_LE(found.pictures[0].outline_rms, 1e-5);
+  ASSERT_EQ(found.posterior.log_sd.size(), 4);
+  EXPECT_TRUE(found.posterior.log_sd.allFinite());
+  EXPECT_GT(found.posterior.log_sd.minCoeff(), 0);
   EXPECT_GT(found.forward_solves, found.iterations / 2);
   testing::Test::RecordProperty("solves", found.forward_solves);
 }
 
 TEST(Estimate, GuidedLevenbergMarquardt) {
-  const Estimate found = estimate(truth().potential, kCusick, truth().seen, truth().start(), {});
+  const Estimate found = estimate({truth().picture()}, truth().start(), {});
   expect_recovered(found);
-  EXPECT_EQ(found.equilibrium.protocol, "guided");
+  EXPECT_EQ(found.pictures[0].equilibrium.protocol, "guided");
   EXPECT_EQ(found.start.k_bu, truth().start().k_bu);
   EXPECT_EQ(found.fabric.k_u, stiff_fabric().k_u);  // not asked for
 }
@@ -86,7 +91,40 @@ TEST(Estimate, GuidedLevenbergMarquardt) {
 TEST(Estimate, GuidedBfgs) {
   EstimateOptions options;
   options.method = FitMethod::bfgs;
-  expect_recovered(estimate(truth().potential, kCusick, truth().seen, truth().start(), options));
+  expect_recovered(estimate({truth().picture()}, truth().start(), options));
+}
+
+TEST(Estimate, BothMethodsAgreeOnTwoPicturesWithNuisances) {
+  // specimens of two sizes; the second picture is turned, shifted and magnified
+  const Scene small{.specimen_radius = 0.12};
+  const Potential model(std::make_shared<const Discretization>(
+                            make_disc_mesh(small, {.vertices = 250}), default_factor_backend()),
+                        stiff_fabric(), {}, small.gravity);
+  const Placement place{{1e-3, -2e-3}, 0.1, 0.004};
+  const Outline outline = trace_outline(model.mesh(), small, drape_by_ramp(model, 1).x);
+  Picture second{model, small, {}};
+  second.seen.profile = radial_profile(place.seen(outline.points)).radius;
+  second.seen.centre_known = false;
+  second.seen.weft_angle_sd = 0.2;
+  second.seen.scale_log_sd = 0.01;
+  EstimateOptions options;
+  options.prior = prior_about({options.parameters, stiff_fabric()}, truth().start(), 1);
+  options.guide = {0.1};
+  std::vector<Estimate> found;
+  for (const FitMethod method : {FitMethod::levenberg_marquardt, FitMethod::bfgs}) {
+    options.method = method;
+    found.push_back(estimate({truth().picture(), second}, truth().start(), options));
+    EXPECT_EQ(found.back().outcome, EstimateOutcome::succeeded) << found.back().message;
+    EXPECT_LE(recovery_error(found.back()).bending, 0.1);  // the priors pull
+    // the start of every angle and shift is 0
+    EXPECT_NEAR(found.back().pictures[1].placement.weft_angle, place.weft_angle, 0.03);
+    EXPECT_LE((found.back().pictures[1].placement.centre - place.centre).norm(), 1e-3);
+  }
+  // where the last relative change of the cost was below 1e-6, far within a standard deviation
+  EXPECT_NEAR(found[0].cost, found[1].cost, 1e-2);
+  const ParameterSpace space{options.parameters, stiff_fabric()};
+  const VecX apart = space.encode(found[0].fabric) - space.encode(found[1].fabric);
+  EXPECT_LE(apart.cwiseQuotient(found[0].posterior.log_sd).cwiseAbs().maxCoeff(), 0.1);
 }
 
 TEST(Estimate, ContinuedFromTheDrapeOfTheStart) {
@@ -102,24 +140,21 @@ TEST(Estimate, ContinuedFromTheDrapeOfTheStart) {
       make_branch_point(potential, space, space.encode(stiff_fabric()), truth().equilibrium),
       space.encode(stiffer), {});
   ASSERT_TRUE(start);
-  expect_recovered(
-      estimate(truth().potential, kCusick, truth().seen, stiffer, options, start->equilibrium));
+  expect_recovered(estimate({truth().picture(start->equilibrium)}, stiffer, options));
 }
 
 TEST(Estimate, AnIterationLimitIsAnOutcome) {
   EstimateOptions options;
   options.max_iterations = 1;
   options.parameters = {Parameter::k_bu, Parameter::k_bv};
-  const Estimate found =
-      estimate(truth().potential, kCusick, truth().seen, truth().start(), options);
+  const Estimate found = estimate({truth().picture()}, truth().start(), options);
   EXPECT_EQ(found.outcome, EstimateOutcome::not_converged) << found.message;
 }
 
 TEST(Estimate, NoGuidedDrapeIsAnOutcome) {
   EstimateOptions options;
   options.equilibrium.max_iterations = 1;
-  const Estimate found =
-      estimate(truth().potential, kCusick, truth().seen, truth().start(), options);
+  const Estimate found = estimate({truth().picture()}, truth().start(), options);
   EXPECT_EQ(found.outcome, EstimateOutcome::no_start);
   EXPECT_EQ(found.fabric.k_bu, truth().start().k_bu);
 }
@@ -136,19 +171,21 @@ TEST(Estimate, ContactIsDecidedAtTheStartAndHeld) {
   options.max_iterations = 1;
   options.guide = {10};
 
-  const Estimate held = estimate(model, kCusick, seen, soft_fabric(), options);
+  const Estimate held = estimate({{model, kCusick, seen}}, soft_fabric(), options);
   EXPECT_NE(held.outcome, EstimateOutcome::no_start);
-  EXPECT_TRUE(held.contact.checked);
-  EXPECT_TRUE(held.contact.support);
-  EXPECT_EQ(held.contact.reason.find("Switched on: without it"), 0u) << held.contact.reason;
-  EXPECT_LE(held.contact.penetration, 3e-4);
+  EXPECT_TRUE(held.pictures[0].contact.checked);
+  EXPECT_TRUE(held.pictures[0].contact.support);
+  EXPECT_EQ(held.pictures[0].contact.reason.find("Switched on: without it"), 0u)
+      << held.pictures[0].contact.reason;
+  EXPECT_LE(held.pictures[0].contact.penetration, 3e-4);
 
   options.contact = ContactMode::off;
-  const Estimate without = estimate(model, kCusick, seen, soft_fabric(), options);
-  EXPECT_FALSE(without.contact.support);
-  EXPECT_EQ(without.contact.reason.find("Switched off by the settings"), 0u)
-      << without.contact.reason;
-  EXPECT_EQ(without.contact_doubtful, without.contact.penetration > kAllowedPenetration);
+  const Estimate without = estimate({{model, kCusick, seen}}, soft_fabric(), options);
+  EXPECT_FALSE(without.pictures[0].contact.support);
+  EXPECT_EQ(without.pictures[0].contact.reason.find("Switched off by the settings"), 0u)
+      << without.pictures[0].contact.reason;
+  EXPECT_EQ(without.pictures[0].contact_doubtful,
+            without.pictures[0].contact.penetration > kAllowedPenetration);
 }
 
 TEST(Estimate, FromAStateInContactContactIsHeld) {
@@ -163,11 +200,12 @@ TEST(Estimate, FromAStateInContactContactIsHeld) {
   seen.profile = radial_profile(outline.points).radius;
   EstimateOptions options;
   options.parameters = {Parameter::k_bu, Parameter::k_bh};
-  const Estimate found = estimate(model, kCusick, seen, soft_fabric(), options, target.equilibrium);
+  const Estimate found =
+      estimate({{model, kCusick, seen, target.equilibrium}}, soft_fabric(), options);
   EXPECT_EQ(found.outcome, EstimateOutcome::succeeded) << found.message;
-  EXPECT_TRUE(found.contact.support);
-  EXPECT_FALSE(found.contact_doubtful);
-  EXPECT_LE(found.outline_rms, 1e-6);  // it starts at the truth
+  EXPECT_TRUE(found.pictures[0].contact.support);
+  EXPECT_FALSE(found.pictures[0].contact_doubtful);
+  EXPECT_LE(found.pictures[0].outline_rms, 1e-6);  // it starts at the truth
 }
 
 TEST(Estimate, OutcomesHaveNames) {
@@ -180,7 +218,7 @@ TEST(Estimate, OutcomesHaveNames) {
 TEST(Estimate, RefusesBadInput) {
   const auto attempt = [](const OutlineObservation& seen, const EstimateOptions& options,
                           const std::optional<Equilibrium>& state = std::nullopt) {
-    estimate(truth().potential, kCusick, seen, truth().start(), options, state);
+    estimate({{truth().potential, kCusick, seen, state}}, truth().start(), options);
   };
   OutlineObservation seen = truth().seen;
   seen.profile.conservativeResize(kProfileSize - 1);
@@ -201,9 +239,8 @@ TEST(Estimate, SpentSolvesAreNoSuccess) {
     EstimateOptions options;
     options.method = method;
     options.max_solves = 5;
-    const Estimate found =
-        estimate(truth().potential, kCusick, truth().seen, truth().start(), options);
-    EXPECT_NE(found.outcome, EstimateOutcome::succeeded) << found.outline_rms;
+    const Estimate found = estimate({truth().picture()}, truth().start(), options);
+    EXPECT_NE(found.outcome, EstimateOutcome::succeeded) << found.pictures[0].outline_rms;
   }
 }
 

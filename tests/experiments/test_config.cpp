@@ -64,6 +64,8 @@ ConfigValue another_value(const ConfigKey& key) {
       return std::vector<double>{1e-3 / 3, 1e-7};
     case ValueType::choices:
       return std::vector<std::string>{"t_bh", "k_u"};
+    case ValueType::paths:
+      return std::vector<std::string>{"/a/b.png", "/a/\"c\".png"};
   }
   return value;
 }
@@ -297,7 +299,7 @@ TEST(Config, SettingsMustFitTogether) {
   EXPECT_TRUE(
       set_error("scene.support_radius=0.15").starts_with("--set scene.support_radius=0.15: "));
   EXPECT_TRUE(set_error("scene.specimen_radius=0.05").starts_with("--set scene.specimen_radius"));
-  EXPECT_TRUE(contains(set_error("experiment.kind=photograph"), "needs photograph.file"));
+  EXPECT_TRUE(contains(set_error("experiment.kind=photograph"), "needs photograph.files"));
   EXPECT_TRUE(contains(set_error("experiment.kind=quickstart"), "needs quickstart.table"));
   EXPECT_EQ(set_error("fabric.bending_law=secant"), "no error");
   EXPECT_TRUE(
@@ -309,7 +311,7 @@ TEST(Config, SettingsMustFitTogether) {
   scratch.write("p.png", "x");
   std::vector<Assignment> photo{
       assignment_from_set("experiment.kind=photograph"),
-      assignment_from_set("photograph.file=" + (scratch / "p.png").string())};
+      assignment_from_set("photograph.files=['" + (scratch / "p.png").string() + "']")};
   EXPECT_TRUE(contains(read_error(std::nullopt, photo), "needs photograph.mm_per_pixel > 0"));
   photo.push_back(assignment_from_set("photograph.mm_per_pixel=1.39"));
   EXPECT_TRUE(contains(read_error(std::nullopt, photo), "needs photograph.areal_density > 0"));

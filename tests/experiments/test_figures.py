@@ -197,7 +197,7 @@ class Figures(unittest.TestCase):
         for outcome in ("succeeded", "the guide could not be released at kappa = 0.01: snap"):
             write(self.file, 1, outcomes=(outcome,))
             results = records.read(self.file)
-            page = estimate_overlay.overlay(results, results.records[0])
+            page = estimate_overlay.overlay(results, results.records[:1])
             self.check_layout(page)
             self.assertEqual(outcome != "succeeded", "did not succeed" in self.words(page))
 

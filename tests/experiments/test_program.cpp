@@ -131,7 +131,7 @@ TEST_F(Program, EstimateNeedsItsInput) {
   expect_refused("estimate --out out", "needs --photo FILE, --dataset FILE or a CONFIG");
   expect_refused("estimate a.toml --out out", "not \"drape\"");
   expect_refused("estimate --photo none.png --mm-per-pixel 1.39 --density .2 --out out",
-                 "--photo none.png: photograph.file: there is no file");
+                 "--photo: photograph.files: there is no file");
   expect_refused("estimate --photo a.toml --density .2 --out out", "mm_per_pixel");
   expect_refused("estimate --photo a.toml --mm-per-pixel 1.39 --out out", "areal_density");
   expect_refused("estimate --photo a.toml --mm-per-pixel -1 --density .2 --out out",
@@ -139,6 +139,11 @@ TEST_F(Program, EstimateNeedsItsInput) {
   expect_refused("estimate --dataset none.h5 --records 0,1 --out out", "there is no file");
   expect_refused("estimate --dataset a.toml --records 0,x --out out", "--records [0, x]: ");
   expect_refused("estimate --mm-per-pixel 1 --out out", "--photo");
+  expect_refused("estimate --warp-angle 90 --out out", "--photo");
+  const std::string photos = "estimate --mm-per-pixel 1.39 --density .2 --out out --photo a.toml ";
+  expect_refused(photos + "none.png", "--photo: photograph.files: there is no file");
+  expect_refused(photos + "a.toml", "has \"");
+  expect_refused(photos + "--warp-angle up", "--warp-angle up: ");
 }
 
 TEST_F(Program, BadParameters) {

@@ -111,6 +111,12 @@ inline EstimateRecord make_estimate(int index, const RecordsHeader& header) {
   estimate.forward_solves = 21;
   estimate.profile = uniform.vector(kProfileSize);
   estimate.start_profile = uniform.vector(kProfileSize);
+  estimate.picture_share = uniform.vector(kParameterCount);
+  estimate.centre = uniform.vector(2);
+  estimate.weft_angle = uniform();
+  estimate.log_scale = uniform();
+  estimate.rigidity = uniform.vector(3);
+  estimate.rigidity_log_sd = uniform.vector(3);
   return estimate;
 }
 
@@ -147,6 +153,12 @@ inline void expect_same(const EstimateRecord& a, const EstimateRecord& b) {
   EXPECT_EQ(a.forward_solves, b.forward_solves);
   EXPECT_TRUE(same(a.profile, b.profile));
   EXPECT_TRUE(same(a.start_profile, b.start_profile));
+  EXPECT_TRUE(same(VecX(a.picture_share), VecX(b.picture_share)));
+  EXPECT_TRUE(same(a.centre, b.centre));
+  EXPECT_EQ(a.weft_angle, b.weft_angle);
+  EXPECT_EQ(a.log_scale, b.log_scale);
+  EXPECT_TRUE(same(a.rigidity, b.rigidity));
+  EXPECT_TRUE(same(a.rigidity_log_sd, b.rigidity_log_sd));
 }
 
 inline void expect_same(const Record& a, const Record& b) {
