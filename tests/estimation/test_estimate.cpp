@@ -116,12 +116,13 @@ TEST(Estimate, BothMethodsAgreeOnTwoPicturesWithNuisances) {
     found.push_back(estimate({truth().picture(), second}, truth().start(), options));
     EXPECT_EQ(found.back().outcome, EstimateOutcome::succeeded) << found.back().message;
     EXPECT_LE(recovery_error(found.back()).bending, 0.1);  // the priors pull
-    // the start of every angle and shift is 0
-    EXPECT_NEAR(found.back().pictures[1].placement.weft_angle, place.weft_angle, 0.03);
+    // the angle hardly shows: folds may lie in a turned picture as they lie in a turned fabric
     EXPECT_LE((found.back().pictures[1].placement.centre - place.centre).norm(), 1e-3);
   }
   // where the last relative change of the cost was below 1e-6, far within a standard deviation
   EXPECT_NEAR(found[0].cost, found[1].cost, 1e-2);
+  EXPECT_NEAR(found[0].pictures[1].placement.weft_angle,
+              found[1].pictures[1].placement.weft_angle, 1e-3);
   const ParameterSpace space{options.parameters, stiff_fabric()};
   const VecX apart = space.encode(found[0].fabric) - space.encode(found[1].fabric);
   EXPECT_LE(apart.cwiseQuotient(found[0].posterior.log_sd).cwiseAbs().maxCoeff(), 0.1);

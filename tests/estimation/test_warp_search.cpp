@@ -11,12 +11,20 @@
 namespace drape::test {
 namespace {
 
-const std::vector<double> kStarts{0, M_PI / 4, M_PI / 2, 3 * M_PI / 4};
+const std::vector<double> kStarts{M_PI / 2, 0.1};
 constexpr double kTrueAngle = 0.3;
 
-/// The outline of a stiff fabric's drape as a picture with a turned weft shows it.
+/// Four times stiffer along the weft than along the warp.
+Fabric anisotropic_fabric() {
+  Fabric fabric = stiff_fabric();
+  fabric.k_bu = 4e-5;
+  fabric.k_bv = 1e-5;
+  return fabric;
+}
+
+/// The outline of its drape as a picture with a turned weft shows it.
 Picture turned_picture() {
-  const Potential potential(disc(300), stiff_fabric(), {}, kCusick.gravity);
+  const Potential potential(disc(300), anisotropic_fabric(), {}, kCusick.gravity);
   const Outline outline = trace_outline(potential.mesh(), kCusick, drape_by_ramp(potential, 1).x);
   Picture picture{potential, kCusick, {}};
   picture.seen.profile = radial_profile(Placement{{}, kTrueAngle, 0}.seen(outline.points)).radius;
@@ -28,16 +36,17 @@ EstimateOptions short_options() {
   EstimateOptions options;
   options.parameters = {Parameter::k_bu, Parameter::k_bv};
   options.guide = {0.1};
-  options.prior = prior_about({options.parameters, stiff_fabric()}, stiff_fabric(), 1);
+  options.max_solves = 60;
+  options.prior = prior_about({options.parameters, anisotropic_fabric()}, anisotropic_fabric(), 1);
   return options;
 }
 
 TEST(WarpSearch, KeepsTheBestOfItsStarts) {
   const WarpSearch search =
-      estimate_with_warp({turned_picture()}, kStarts, stiff_fabric(), short_options());
-  ASSERT_EQ(search.trials.size(), 4u);
+      estimate_with_warp({turned_picture()}, kStarts, anisotropic_fabric(), short_options());
+  ASSERT_EQ(search.trials.size(), 2u);
   EXPECT_EQ(search.best.outcome, EstimateOutcome::succeeded) << search.best.message;
-  for (size_t i = 0; i < 4; ++i) {
+  for (size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(search.trials[i].weft_angle, kStarts[i]);
     EXPECT_EQ(search.trials[i].picture, 0u);
     if (search.trials[i].outcome == EstimateOutcome::succeeded) {
@@ -45,20 +54,20 @@ TEST(WarpSearch, KeepsTheBestOfItsStarts) {
     }
   }
   EXPECT_LT(std::abs(search.pictures[0].seen.weft_angle - kTrueAngle), M_PI / 4);
-  // the prior of the angle, 0.4 about the start, against an outline known to half a millimetre
-  EXPECT_NEAR(search.best.pictures[0].placement.weft_angle, kTrueAngle, 0.02);
+  // the outline of a neighbouring branch is off by 0.7 mm, for which the angle pays a little
+  EXPECT_NEAR(search.best.pictures[0].placement.weft_angle, kTrueAngle, 0.05);
 }
 
 TEST(WarpSearch, OneDirectionIsOneFit) {
   Picture picture = turned_picture();
   picture.seen.weft_angle_sd = 0;
   const WarpSearch search =
-      estimate_with_warp({picture}, {kTrueAngle}, stiff_fabric(), short_options());
+      estimate_with_warp({picture}, {kTrueAngle}, anisotropic_fabric(), short_options());
   ASSERT_EQ(search.trials.size(), 1u);
   EXPECT_EQ(search.best.outcome, EstimateOutcome::succeeded) << search.best.message;
   EXPECT_EQ(search.best.pictures[0].placement.weft_angle, kTrueAngle);
   EXPECT_LE(search.best.pictures[0].outline_rms, 1e-4);
-  EXPECT_THROW(estimate_with_warp({picture}, {}, stiff_fabric(), short_options()),
+  EXPECT_THROW(estimate_with_warp({picture}, {}, anisotropic_fabric(), short_options()),
                std::invalid_argument);
 }
 

@@ -54,7 +54,8 @@ ConfigValue another_value(const ConfigKey& key) {
     case ValueType::number:
       return key.range.contains(0.1 + 0.2) ? 0.1 + 0.2 : 100. / 3;
     case ValueType::choice:
-      return key.choices.back();
+      return std::get<std::string>(value) == key.choices.back() ? key.choices.front()
+                                                                : key.choices.back();
     case ValueType::path:
       return std::string("/tables/a \"b\"\\\tc.csv");
     case ValueType::integers:
