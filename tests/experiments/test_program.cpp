@@ -143,7 +143,7 @@ TEST_F(Program, EstimateNeedsItsInput) {
   const std::string photos = "estimate --mm-per-pixel 1.39 --density .2 --out out --photo a.toml ";
   expect_refused(photos + "none.png", "--photo: photograph.files: there is no file");
   expect_refused(photos + "a.toml", "has \"");
-  expect_refused(photos + "--warp-angle up", "--warp-angle up: ");
+  expect_refused(photos + "--warp-angle up", "--warp-angle [up]: ");
 }
 
 TEST_F(Program, BadParameters) {
