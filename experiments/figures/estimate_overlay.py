@@ -49,10 +49,10 @@ def picture_row(page, top, results, record, show_id):
     page.text(5, top + 1, wrapped(f"Estimated drape, {record.id}", 50, 1) if show_id
               else "Estimated drape from above", fontsize=8)
     page.text(PICTURE + 14, top + 1,
-              f"Outline [mm], rms {style.millimetres(estimate.outline_rms)}, "
+              f"Outline, rms {style.millimetres(estimate.outline_rms)}, "
               f"IoU {estimate.iou:.3f}, nodes {record.node_count} → {estimate.node_count}, "
               f"DC {style.percent(record.drape_coefficient)} → "
-              f"{style.percent(estimate.drape_coefficient)}", fontsize=6.5)
+              f"{style.percent(estimate.drape_coefficient)}", fontsize=6)
     if np.isfinite(estimate.positions).all():
         cosine, sine = np.cos(estimate.weft_angle), np.sin(estimate.weft_angle)
         turned = estimate.positions @ np.array([[cosine, sine, 0], [-sine, cosine, 0], [0, 0, 1]])

@@ -121,8 +121,8 @@ TEST(Estimate, BothMethodsAgreeOnTwoPicturesWithNuisances) {
   }
   // where the last relative change of the cost was below 1e-6, far within a standard deviation
   EXPECT_NEAR(found[0].cost, found[1].cost, 1e-2);
-  EXPECT_NEAR(found[0].pictures[1].placement.weft_angle,
-              found[1].pictures[1].placement.weft_angle, 1e-3);
+  EXPECT_NEAR(found[0].pictures[1].placement.weft_angle, found[1].pictures[1].placement.weft_angle,
+              1e-3);
   const ParameterSpace space{options.parameters, stiff_fabric()};
   const VecX apart = space.encode(found[0].fabric) - space.encode(found[1].fabric);
   EXPECT_LE(apart.cwiseQuotient(found[0].posterior.log_sd).cwiseAbs().maxCoeff(), 0.1);
