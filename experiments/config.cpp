@@ -289,7 +289,8 @@ void check_together(const Loaded& loaded, const std::string& name) {
     refuse(support ? "scene.support_radius" : "scene.specimen_radius", error.what());
   }
   for (const ConfigKey& key : config_keys()) {
-    if (key.full_name() == "quickstart.photograph") continue;
+    if (key.full_name() == "quickstart.photograph" || key.full_name() == "photographs.folder")
+      continue;  // the run says so where they are missing
     std::vector<std::string> files;
     if (key.type == ValueType::path) files = {std::get<std::string>(key.get(settings))};
     if (key.type == ValueType::paths) files = std::get<std::vector<std::string>>(key.get(settings));
@@ -305,6 +306,18 @@ void check_together(const Loaded& loaded, const std::string& name) {
       refuse("photograph.mm_per_pixel", "a photograph needs photograph.mm_per_pixel > 0");
     if (!(settings.photograph.areal_density > 0))
       refuse("photograph.areal_density", "a photograph needs photograph.areal_density > 0 kg/m^2");
+  }
+  if (kind == Kind::photographs) {
+    if (settings.photographs.folder.empty())
+      refuse("experiment.kind", "photographs need photographs.folder");
+    if (!(settings.photograph.mm_per_pixel > 0))
+      refuse("photograph.mm_per_pixel", "photographs need photograph.mm_per_pixel > 0");
+    if (settings.photographs.models.empty())
+      refuse("photographs.models", "photographs.models must name a model");
+    if (settings.photographs.weighed.size() != settings.photographs.densities.size())
+      refuse("photographs.densities",
+             "photographs.densities must hold one density for each of "
+             "photographs.weighed");
   }
   if (kind == Kind::quickstart && settings.quickstart.table.empty())
     refuse("experiment.kind", "the quickstart needs quickstart.table");

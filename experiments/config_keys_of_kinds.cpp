@@ -101,6 +101,34 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("photograph", "prior", "", kAny, "As estimate.prior; the start comes from the weight.",
       DRAPE_MEMBER(photograph.prior));
 
+  add("photographs", "folder", "", kAny,
+      "Folder with fabric_NN/specimen_SS_capture_C.jpg; skipped, saying so, where it is missing. "
+      "Scale, noise, warp and prior are those of [photograph].",
+      DRAPE_MEMBER(photographs.folder));
+  add("photographs", "fabrics", "", kNotNegative, "Numbers of the fabrics; [] for all.",
+      DRAPE_MEMBER(photographs.fabrics));
+  add("photographs", "captures", "", at_least(1),
+      "How many pictures of each fabric are fitted: the first, then others of another placement, "
+      "face and specimen.",
+      DRAPE_MEMBER(photographs.captures));
+  add("photographs", "models", "", kAny,
+      "How the threshold of bending is read, and whether the softening past it is estimated too.",
+      DRAPE_MEMBER(photographs.models));
+  add("photographs", "weighed", "", kNotNegative, "Numbers of the fabrics of known density.",
+      DRAPE_MEMBER(photographs.weighed));
+  add("photographs", "densities", "kg/m^2", kPositive, "Their mass per area.",
+      DRAPE_MEMBER(photographs.densities));
+  add("photographs", "areal_density", "kg/m^2", kPositive,
+      "Mass per area taken for the others: a drape shows stiffness over weight only.",
+      DRAPE_MEMBER(photographs.areal_density));
+  add("photographs", "lobes", "", {1, 60, true},
+      "Lobes of the folded starts that predict drapes without a picture.",
+      DRAPE_MEMBER(photographs.lobes));
+
+  add("identifiability", "fabrics", "", at_least(1),
+      "Number of random fabrics of the measured distribution.",
+      DRAPE_MEMBER(identifiability.fabrics));
+
   add("gradient_check", "fabrics", "", at_least(1), "Number of random fabrics.",
       DRAPE_MEMBER(gradient_check.fabrics));
   add("gradient_check", "loss", "", kAny, "The loss whose gradient is checked.",

@@ -4,8 +4,9 @@ namespace drape {
 
 template <>
 std::vector<std::string> names_of<Kind>() {
-  return {"drape",      "dataset",    "estimate", "photograph", "gradient_check",
-          "robustness", "quickstart", "branches", "validation", "accuracy"};
+  return {"drape",          "dataset",    "estimate",    "photograph",
+          "gradient_check", "robustness", "quickstart",  "branches",
+          "validation",     "accuracy",   "photographs", "identifiability"};
 }
 template <>
 std::vector<std::string> names_of<MeshKind>() {
@@ -39,6 +40,10 @@ std::vector<std::string> names_of<EstimateStart>() {
 template <>
 std::vector<std::string> names_of<PriorKind>() {
   return {"none", "start", "weight"};
+}
+template <>
+std::vector<std::string> names_of<PhotographModel>() {
+  return {"printed", "radius", "radius_softening"};
 }
 template <>
 std::vector<std::string> names_of<Structure>() {

@@ -28,6 +28,8 @@ std::vector<std::string> names_of<EstimateStart>();
 template <>
 std::vector<std::string> names_of<PriorKind>();
 template <>
+std::vector<std::string> names_of<PhotographModel>();
+template <>
 std::vector<std::string> names_of<Structure>();
 template <>
 std::vector<std::string> names_of<CheckedLoss>();

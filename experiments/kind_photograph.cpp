@@ -2,14 +2,12 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <numbers>
 
-#include "estimation/photograph.h"
 #include "estimation/tag.h"
-#include "estimation/warp_search.h"
 #include "experiments/figure.h"
 #include "experiments/kinds.h"
 #include "experiments/model.h"
+#include "experiments/photograph_fit.h"
 #include "experiments/record_store.h"
 #include "experiments/recovery.h"
 #include "experiments/statistics.h"
@@ -18,22 +16,6 @@ namespace drape {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kRightAngle = 90;  // from weft to warp [deg]
-
-Picture picture_of(const Settings& settings, const Potential& model, const Photograph& photograph) {
-  Picture picture{model, settings.scene, {}};
-  picture.seen.profile = photograph.profile;
-  picture.seen.noise = settings.photograph.outline_noise;
-  picture.seen.noise_harmonics = settings.estimate.noise_harmonics;
-  picture.seen.grid = photograph.grid;
-  picture.seen.coverage = photograph.coverage;
-  picture.seen.centre_known = false;
-  picture.seen.weft_angle_sd = kDegree * settings.photograph.warp_angle_sd;
-  picture.seen.scale_log_sd = settings.photograph.scale_log_sd;
-  return picture;
-}
 
 /// The photograph as a record: an observation of a fabric of which little is known.
 Record observed_record(const Settings& settings, const std::filesystem::path& file,
@@ -46,8 +28,6 @@ Record observed_record(const Settings& settings, const std::filesystem::path& fi
   record.observation.node_count = node_count(photograph.profile);
   return record;
 }
-
-double warp_degrees(double weft_angle) { return weft_angle / kDegree + kRightAngle; }
 
 Json picture_summary(const std::filesystem::path& file, const Record& record,
                      const PictureEstimate& drape) {
@@ -128,22 +108,17 @@ RunOutcome run_photograph(const Settings& settings, OutputFolder& folder) {
 
   const auto discretization = make_discretization(settings);
   const Potential model = make_potential(discretization, first, settings);
-  std::vector<Picture> pictures;
-  for (const Photograph& photograph : photographs)
-    pictures.push_back(picture_of(settings, model, photograph));
   EstimateOptions options = estimate_options(settings);
   options.prior = fit_prior(settings, given.prior, given.structure, first);
-  std::vector<double> weft_angles;
-  for (double angle : given.warp_angles) weft_angles.push_back(kDegree * (angle - kRightAngle));
-  const WarpSearch search = estimate_with_warp(pictures, weft_angles, first, options);
+  const WarpSearch search = fit_photographs(settings, model, first, photographs, options);
   const Estimate& result = search.best;
 
-  const int count = static_cast<int>(pictures.size());
+  const int count = static_cast<int>(photographs.size());
   const RecordStore store(folder.path(), records_header(settings, discretization->mesh()), count);
   Json each = Json::array();
   std::vector<double> squared_rms, iou;
   Record record;
-  for (size_t i = 0; i < pictures.size(); ++i) {
+  for (size_t i = 0; i < photographs.size(); ++i) {
     record =
         observed_record(settings, given.files[i], photographs[i], discretization->mesh(), first);
     record.estimate =

@@ -44,6 +44,10 @@ RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
       return run_validation(settings, folder);
     case Kind::accuracy:
       return run_accuracy(settings, folder);
+    case Kind::photographs:
+      return run_photographs(settings, folder);
+    case Kind::identifiability:
+      return run_identifiability(settings, folder);
     case Kind::branches:
       return run_branches(settings, folder);
   }

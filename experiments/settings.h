@@ -32,7 +32,9 @@ enum class Kind {
   quickstart,
   branches,
   validation,
-  accuracy
+  accuracy,
+  photographs,
+  identifiability
 };
 
 struct Experiment {
@@ -162,6 +164,25 @@ struct PhotographSettings {
   PriorKind prior = PriorKind::weight;
 };
 
+/// How the threshold of bending is read, and whether the stiffness past it is estimated.
+enum class PhotographModel { printed, radius, radius_softening };
+
+/// A folder of photographs of many fabrics; how they are fitted is in PhotographSettings.
+struct PhotographsSettings {
+  std::filesystem::path folder;
+  std::vector<int> fabrics;  ///< empty: all
+  int captures = 4;          ///< of each fabric that are fitted
+  std::vector<PhotographModel> models{PhotographModel::printed};
+  std::vector<int> weighed;          ///< fabrics whose areal density is known
+  std::vector<double> densities;     ///< of these [kg/m^2]
+  double areal_density = 0.2;        ///< taken for the others [kg/m^2]
+  std::vector<int> lobes{6, 8, 10};  ///< of the starts without a picture
+};
+
+struct IdentifiabilitySettings {
+  int fabrics = 60;
+};
+
 struct ValidationSettings {
   std::vector<double> slenderness{0.5, 1, 1.5, 2, 3, 4};
   std::vector<double> edge_lengths{0.006, 0.004, 0.003, 0.002, 0.0015};  ///< of strips [m]
@@ -197,6 +218,8 @@ struct Settings {
   ValidationSettings validation;
   AccuracySettings accuracy;
   BranchesSettings branches;
+  PhotographsSettings photographs;
+  IdentifiabilitySettings identifiability;
 };
 
 }  // namespace drape

@@ -1,0 +1,24 @@
+// A photograph as a picture of a fit: what kind = "photograph" and the study of many share.
+#pragma once
+
+#include <vector>
+
+#include "estimation/photograph.h"
+#include "estimation/warp_search.h"
+#include "experiments/settings.h"
+
+namespace drape {
+
+/// Noise, nuisances and their priors as [photograph] says; `model` gives mesh, reading and gravity.
+Picture picture_of(const Settings& settings, const Potential& model, const Photograph& photograph);
+
+/// The fit of photographs of one fabric, warp directions as [photograph] says. `first`: the first
+/// fabric. The prior is the options'.
+WarpSearch fit_photographs(const Settings& settings, const Potential& model, const Fabric& first,
+                           const std::vector<Photograph>& photographs,
+                           const EstimateOptions& options);
+
+/// Direction of the warp of an angle of the weft [rad], in degrees.
+double warp_degrees(double weft_angle);
+
+}  // namespace drape
