@@ -64,9 +64,9 @@ def page(summary):
     rows = -(-len(parameters) // 3)
     figure = style.Page(180, 22 + 46 * rows + 48)
     figure.text(6, 4, "What outlines say of a fabric", fontsize=11, weight="bold")
-    figure.text(6, 10.5, f"{len(items)} fabrics of the measured distribution, no prior; below 0.1 "
-                "(line) a parameter is known to 10 %, above 1 not at all; lines: running medians "
-                "over the drape coefficient in %", fontsize=6.5)
+    figure.text(6, 10.5, f"{len(items)} fabrics of the measured distribution against their drape "
+                "coefficient in %; no prior; lines: running medians\nbelow 0.1 (dashed) a parameter "
+                "is known to 10 %, above 1 (dashed) not at all", fontsize=6.5)
     for i, parameter in enumerate(parameters):
         sensitivity(figure, 14 + 58 * (i % 3), 22 + 46 * (i // 3), parameter, items, designs,
                     first=i == 0)
