@@ -8,8 +8,8 @@ import numpy as np
 import style
 import study
 
-CELL, COLUMNS = 34, 5
-ROW = CELL + 11
+CELL, COLUMNS = 40, 4
+ROW = CELL + 12
 HEAD = 17
 PREDICTION = "#009E73"
 
@@ -34,7 +34,7 @@ def outline_cell(figure, left, top, label, item, colour):
     axes.set(xlim=(-152, 152), ylim=(-152, 152), aspect="equal")
     axes.axis("off")
     if not is_fit(item):
-        figure.text(left, top, f"{label}: {item['outcome']}", fontsize=5.5, color=style.WARNING)
+        figure.text(left, top, f"{label}: {item['outcome']}", fontsize=6, color=style.WARNING)
         return
     axes.fill(*closed(item["seen"]["profile_mm"]), color="#D8D8D8", linewidth=0)
     axes.plot(*closed(item["profile_mm"]), color=colour, linewidth=0.8)
@@ -44,7 +44,7 @@ def outline_cell(figure, left, top, label, item, colour):
                 f"{item['drape_coefficient_percent']:.1f}\n"
                 f"{seen['node_count']} → {item['node_count']} nodes, "
                 f"{style.number(item['outline_rms_mm'])} mm, IoU {item['iou']:.3f}",
-                fontsize=5.2, linespacing=1.25)
+                fontsize=6, linespacing=1.25)
     if not is_free(item):
         outcome = item["outcome"] if item["outcome"] != "succeeded" else "not free"
         axes.text(0, 0, outcome.replace("_", " "), color=style.WARNING, fontsize=6, ha="center",
@@ -78,7 +78,7 @@ def scatter(axes, fabrics, model):
         axes.plot(x, y, marker, color=colour, markersize=2.5, linewidth=0, label=label)
     axes.set(xlim=(0, 100), ylim=(0, 100), xlabel="photographed", ylabel="computed")
     axes.set_title("Drape coefficient, %", fontsize=7)
-    axes.legend(frameon=False, fontsize=5.5, loc="upper left")
+    axes.legend(frameon=False, fontsize=6, loc="upper left")
 
 
 def nodes(axes, fabrics):
@@ -107,7 +107,7 @@ def rigidities(axes, fabrics, model):
             axes.plot([i] * 3, 1e6 * np.array(item["rigidity"]), "o", color=style.ESTIMATE,
                       markersize=1.8, alpha=0.6)
     axes.set(yscale="log", xlabel="fabric", xlim=(-1, len(fabrics)))
-    axes.set_xticks(range(len(fabrics)), [str(row["fabric"]) for row in fabrics], fontsize=4.5)
+    axes.set_xticks(range(len(fabrics)), [str(row["fabric"]) for row in fabrics], fontsize=6)
     axes.set_title("$B_u$, $B_v$, $B_{45}$ of every fit, µN m", fontsize=7)
 
 
@@ -126,7 +126,7 @@ def page(summary):
                 "another picture of the fabric from the parameters of the first, its branch given",
                 fontsize=6.5)
     for i, (label, item, colour) in enumerate(cells):
-        outline_cell(figure, 6 + (CELL + 3) * (i % COLUMNS), HEAD + ROW * (i // COLUMNS), label,
+        outline_cell(figure, 6 + (CELL + 5) * (i % COLUMNS), HEAD + ROW * (i // COLUMNS), label,
                      item, colour)
     top = HEAD + ROW * rows + 8
     scatter(figure.axes(16, top, 44, 44), fabrics, model)

@@ -21,6 +21,8 @@ import branches  # noqa: E402
 import drape_sheet  # noqa: E402
 import ensemble  # noqa: E402
 import estimate_overlay  # noqa: E402
+import identifiability  # noqa: E402
+import photographs  # noqa: E402
 import results as records  # noqa: E402
 import robustness  # noqa: E402
 import style  # noqa: E402
@@ -152,6 +154,31 @@ def texts(page):
     return [(text, text.get_window_extent()) for text in found if text.get_text().strip()]
 
 
+def photographs_summary():
+    """Two fabrics, of the second no fit succeeded."""
+    seen = dict(node_count=7, drape_coefficient_percent=71.2, profile_mm=[120.0] * 360)
+    fit = dict(outcome="succeeded", free=True, certified=True, outline_rms_mm=2.13, iou=0.9712,
+               node_count=8, drape_coefficient_percent=72.5, seen=seen, parameters={},
+               rigidity=[1e-5, 2e-5, 1.5e-5], profile_mm=[121.0] * 360)
+    lost = fit | dict(outcome="branch_lost", free=False)
+    unread = dict(outcome="failed", message="no picture")
+    photographs = dict(drape_coefficients=[70.0, 73.0], node_counts=[7, 8])
+    return dict(fabrics=[
+        dict(fabric=1, photographs=photographs, fits=dict(printed=[fit, lost]),
+             predictions=[fit | dict(change="face")],
+             without_branch=dict(drape_coefficients=[65.0, 68.0], node_counts=[5, 6])),
+        dict(fabric=2, photographs=photographs, fits=dict(printed=[unread, lost]))])
+
+
+def identifiability_summary():
+    """Four fabrics, one of which was not solved."""
+    said = dict(log_sd=dict(k_h=0.4, k_bu=0.05), singular_values=[20.0, 2.5],
+                directions=[[0.0, 1.0], [1.0, 0.0]])
+    items = [dict(status="converged", drape_coefficient_percent=50.0 + i,
+                  designs={"one picture": said, "two drapes": said}) for i in range(3)]
+    return dict(parameters=["k_h", "k_bu"], items=items + [dict(status="stagnated")])
+
+
 class Figures(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -210,6 +237,15 @@ class Figures(unittest.TestCase):
             self.assertIn(said, words)
         self.check_layout(validation.page(summary | {"mesh_bias": {}}))
         self.check_layout(accuracy.page(accuracy_summary()))
+        page = photographs.page(photographs_summary())
+        self.check_layout(page)
+        words = self.words(page)
+        for said in ("fabric 1   DC 71.2 → 72.5", "7 → 8 nodes, 2.13 mm, IoU 0.971",
+                     "fabric 2: failed", "1, other face"):
+            self.assertIn(said, words)
+        page = identifiability.page(identifiability_summary())
+        self.check_layout(page)
+        self.assertIn("3 fabrics of the measured distribution", self.words(page))
 
     def test_elastica_of_small_load_is_a_beam(self):
         # c/8 with corrections of order c^3 = 1e-6 and second-order differences
@@ -217,7 +253,9 @@ class Figures(unittest.TestCase):
 
     def test_scripts_of_studies_write_both_files(self):
         for script, summary in (("validation", validation_summary()),
-                                ("accuracy", accuracy_summary())):
+                                ("accuracy", accuracy_summary()),
+                                ("photographs", photographs_summary()),
+                                ("identifiability", identifiability_summary())):
             file = self.folder / "summary.json"
             file.write_text(json.dumps(summary))
             done = self.run_script(f"{script}.py", file, "--out", self.folder / script)
