@@ -50,8 +50,13 @@ Fabric perturbed(const Fabric& truth, const EstimateSettings& settings, std::uin
   Random random(seed);
   Fabric fabric = truth;
   for (Parameter p : settings.parameters) {
-    const bool up = !settings.perturb_either_way || random.sign() > 0;
-    if (is_logarithmic(p)) fabric[p] *= up ? settings.perturbation : 1 / settings.perturbation;
+    if (!is_logarithmic(p)) continue;
+    const double most = std::log(settings.perturbation);
+    const double log_factor = settings.perturb == Perturb::up ? most
+                              : settings.perturb == Perturb::either_way
+                                  ? random.sign() * most
+                                  : random.uniform(-most, most);
+    fabric[p] *= std::exp(log_factor);
   }
   return fabric;
 }
@@ -97,7 +102,7 @@ EstimateRecord recover(const Settings& settings, const Potential& model, const R
   observation.grid = header.grid;
   observation.coverage = record.observation.coverage;
 
-  const Fabric start = perturbed(record.fabric, settings.estimate, seed);
+  const Fabric start = perturbed(record.fabric, settings.estimate, seed_of_item(seed, 2));
   Potential target = model;  // what acted on the target acts on its branch
   target.set_support(record.stats.contact == "support"
                          ? std::optional(support_contact(header.scene))

@@ -9,8 +9,7 @@
 
 namespace drape {
 
-/// The first parameters of a fit: the truth times the perturbation, or for some parameters (chosen
-/// by the seed) divided by it.
+/// The first parameters of a fit: the truth, perturbed as the settings say; `seed` chooses.
 Fabric perturbed(const Fabric& truth, const EstimateSettings& settings, std::uint64_t seed);
 
 /// Adds smooth noise of standard deviation `sd` [m] to a profile: harmonics 0 to 15, random phases.
