@@ -1,6 +1,7 @@
 #include "estimation/estimate.h"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -8,14 +9,16 @@
 
 #include "core/cpu_clock.h"
 #include "core/guided.h"
+#include "estimation/branch_search.h"
 
 namespace drape {
 namespace {
 
 constexpr double kLargestCentre = 10;     // the unknowns of the centre are bounded to +-10 mm
 constexpr double kStageTolerance = 1e-3;  // relative cost change that ends a guided fit
+constexpr int kStageIterations = 15;      // on a wrong branch a guided fit creeps on
 constexpr double kFinalTolerance =
-    1e-6;  // and the last one, far below what noise leaves of the cost
+    1e-6;  // of the free fit, far below what noise leaves of the cost
 
 /// One estimation from start to end; each method is one stage.
 class Estimation {
@@ -43,50 +46,143 @@ class Estimation {
   }
 
  private:
+  /// How far a fit has come: what is restored when a later one is no better.
+  struct Progress {
+    Estimate result;
+    VecX u;
+  };
+
   void fit(const std::optional<Equilibrium>& start_state) {
     potential_.set_guide(std::nullopt);
     if (start_state) {
       result_.equilibrium = *start_state;
       result_.contact.support = potential_.support().has_value();
       result_.contact.reason = "As in the state that the fit starts from.";
-    } else if (!guided_start()) {
-      result_.outcome = EstimateOutcome::no_start;
-      return;
+      result_.start_profile = profile_of(result_.equilibrium);
+      if (release(0)) judge(std::nullopt);
+    } else {
+      search();
     }
-    result_.start_profile = profile_of(result_.equilibrium);
-    if (!start_state)
-      for (double kappa : options_.guide) {
-        if (!set_guide(kappa)) return;
-        fit_stage(kStageTolerance);
+    if (result_.outcome != EstimateOutcome::no_start) finish();
+  }
+
+  /// Fits from one guided start after the other, until one explains the outline (branch_search.h).
+  /// Each takes up the unknowns that explained it best under the first guide.
+  void search() {
+    std::optional<Progress> best;
+    VecX u = u_;
+    double guided_miss = std::numeric_limits<double>::infinity();
+    for (const GuidedStart& start : guided_starts(options_.guide, options_.guide_harmonics)) {
+      set_unknowns(u);
+      start_ = start;
+      if (!guided_start()) continue;
+      result_.outcome = EstimateOutcome::branch_lost;  // until the guide is gone
+      if (result_.start_profile.size() == 0)
+        result_.start_profile = profile_of(result_.equilibrium);
+      std::optional<Progress> guided;  // the last guided state with the nodes observed
+      bool worth_releasing = true;
+      for (size_t i = 0; worth_releasing && i < options_.guide.size(); ++i) {
+        worth_releasing = release(options_.guide[i]);
+        if (worth_releasing && i == 0) {
+          worth_releasing = outline_miss() < guided_miss;
+          if (worth_releasing) guided_miss = outline_miss(), u = u_;
+        }
+        if (worth_releasing && same_nodes()) guided = Progress{result_, u_};
       }
-    if (!set_guide(0)) return;
-    const Minimum minimum = fit_stage(kFinalTolerance);
-    result_.outcome =
-        minimum.converged ? EstimateOutcome::succeeded : EstimateOutcome::not_converged;
-    finish();
+      if (worth_releasing && release(0)) judge(guided);
+      result_.outline_rms = outline_miss();
+      if (!best || is_better(result_, best->result)) best = Progress{result_, u_};
+      if (result_.outcome == EstimateOutcome::succeeded) break;
+    }
+    if (best) restore(*best);
+  }
+
+  /// Fits under a guide (kappa > 0) or freely from the state at hand; false when there is none.
+  bool release(double kappa) {
+    if (!set_guide(kappa)) return false;
+    const Minimum minimum = kappa > 0 ? fit_stage(kStageTolerance, kStageIterations)
+                                      : fit_stage(kFinalTolerance, options_.max_iterations);
+    if (kappa == 0)
+      result_.outcome =
+          minimum.converged ? EstimateOutcome::succeeded : EstimateOutcome::not_converged;
+    return true;
+  }
+
+  /// What a free fit is worth. One with other nodes than observed has left the branch; `guided` is
+  /// then shown instead, the last state that had them.
+  void judge(const std::optional<Progress>& guided) {
+    const double miss = outline_miss();
+    if (guided && !same_nodes()) {
+      const std::string message =
+          "the free drape has " + std::to_string(node_count(profile_of(result_.equilibrium))) +
+          " nodes, the observed outline " + std::to_string(node_count(observation_.profile));
+      restore(*guided);
+      result_.outcome = EstimateOutcome::branch_lost;
+      result_.message = message;
+    } else if (result_.outcome == EstimateOutcome::succeeded &&
+               !explains(miss, observation_.noise)) {
+      result_.outcome = EstimateOutcome::misfit;
+      result_.message = "the outline is missed by " + std::to_string(1e3 * miss) +
+                        " mm rms, noise " + std::to_string(1e3 * observation_.noise) + " mm";
+    }
+  }
+
+  void restore(const Progress& progress) {
+    const int iterations = result_.iterations, solves = result_.forward_solves;
+    result_ = progress.result;
+    result_.iterations = iterations;
+    result_.forward_solves = solves;
+    u_ = progress.u;
+  }
+
+  void set_unknowns(const VecX& u) {
+    u_ = u;
+    result_.fabric = objective_.space().decode(u.head(objective_.space().size()));
+    potential_.set_fabric(result_.fabric);
+  }
+
+  double outline_miss() const {
+    return std::sqrt((profile_of(result_.equilibrium) - observation_.profile).squaredNorm() /
+                     kProfileSize);
+  }
+
+  bool same_nodes() const {
+    return node_count(profile_of(result_.equilibrium)) == node_count(observation_.profile);
   }
 
   Guide guide_of(double kappa) const {
-    return {harmonics(observation_.profile, options_.guide_harmonics), objective_.centre_of(u_),
-            kappa};
+    return {harmonics(observation_.profile, start_.harmonics), objective_.centre_of(u_), kappa};
   }
 
   bool guided_start() {
-    const double kappa = options_.guide.empty() ? 1 : options_.guide.front();
-    result_.kappa = kappa;
-    const Guide guide = guide_of(kappa);
+    result_.kappa = start_.kappa;
+    const Guide guide = guide_of(start_.kappa);
     potential_.set_guide(guide);
     ContactDrape start = drape_with_contact(
         potential_, scene_, options_.contact,
-        [&](const Potential& potential) {
-          return solve_under_guide(potential, scene_, guide, options_.equilibrium);
-        },
+        [&](const Potential& potential) { return laid_along(potential, guide); },
         options_.equilibrium);
     result_.equilibrium = std::move(start.equilibrium);
     result_.contact = std::move(start.contact);
+    result_.outcome = EstimateOutcome::no_start;
     const bool solved_again = result_.contact.support && options_.contact == ContactMode::automatic;
     result_.forward_solves += solved_again ? 2 : 1;
     return result_.equilibrium.converged();
+  }
+
+  Equilibrium laid_along(const Potential& potential, const Guide& guide) const {
+    if (start_.bending == 1)
+      return solve_under_guide(potential, scene_, guide, options_.equilibrium);
+    Potential stiffer = potential;
+    Fabric fabric = potential.fabric();
+    for (Parameter p : {Parameter::k_bu, Parameter::k_bv, Parameter::k_bh})
+      fabric[p] *= start_.bending;
+    stiffer.set_fabric(fabric);
+    const Equilibrium first = solve_under_guide(stiffer, scene_, guide, options_.equilibrium);
+    Equilibrium result = solve_equilibrium(potential, first.x, options_.equilibrium);
+    result.add_work_of(first);
+    result.protocol = first.protocol;
+    return result;
   }
 
   /// The drape at the current unknowns under another guide; false when there is none near-by.
@@ -99,7 +195,6 @@ class Estimation {
     if (!equilibrium.converged()) {
       result_.outcome = EstimateOutcome::branch_lost;
       result_.message = "no equilibrium at kappa = " + std::to_string(kappa);
-      finish();
       return false;
     }
     equilibrium.protocol = result_.equilibrium.protocol;
@@ -120,10 +215,10 @@ class Estimation {
     return guided;
   }
 
-  Minimum fit_stage(double tolerance) {
+  Minimum fit_stage(double tolerance, int max_iterations) {
     MinimiseOptions options;
     options.method = options_.method;
-    options.max_iterations = options_.max_iterations;
+    options.max_iterations = std::min(max_iterations, options_.max_iterations);
     options.function_tolerance = tolerance;
     const int p = objective_.space().size();
     const VecX z = objective_.space().encode(result_.start);
@@ -146,6 +241,19 @@ class Estimation {
     return minimum;
   }
 
+  /// Makes the state at hand the one that the objective knows; it may be of an earlier start.
+  bool know_last_drape() {
+    if (!result_.equilibrium.converged()) return false;
+    potential_.set_fabric(result_.fabric);
+    potential_.set_guide(std::nullopt);
+    const ParameterSpace& space = objective_.space();
+    objective_.start_from(
+        potential_,
+        make_branch_point(potential_, space, u_.head(space.size()), result_.equilibrium),
+        options_.continuation);
+    return true;
+  }
+
   VecX profile_of(const Equilibrium& equilibrium) const {
     const Outline outline = trace_outline(potential_.mesh(), scene_, equilibrium.x);
     return radial_profile(outline.points, objective_.centre_of(u_)).radius;
@@ -163,12 +271,11 @@ class Estimation {
   void finish() {
     check_last_contact();
     result_.centre = objective_.centre_of(u_);
-    result_.outline_rms = std::sqrt(
-        (profile_of(result_.equilibrium) - observation_.profile).squaredNorm() / kProfileSize);
+    result_.outline_rms = outline_miss();
     VecX r;
     MatX jacobian;
     result_.log_sd = VecX::Constant(objective_.space().size(), std::nan(""));
-    if (result_.outcome == EstimateOutcome::branch_lost ||
+    if (result_.outcome == EstimateOutcome::branch_lost || !know_last_drape() ||
         !objective_.residuals_at(u_, r, &jacobian))
       return;
     const Eigen::CompleteOrthogonalDecomposition<MatX> qr(jacobian.transpose() * jacobian);
@@ -183,6 +290,7 @@ class Estimation {
   EstimateOptions options_;
   DrapeObjective objective_;
   VecX u_;
+  GuidedStart start_;
   Estimate result_;
 };
 
@@ -196,6 +304,8 @@ std::string_view name(EstimateOutcome outcome) {
       return "no_start";
     case EstimateOutcome::branch_lost:
       return "branch_lost";
+    case EstimateOutcome::misfit:
+      return "misfit";
     case EstimateOutcome::not_converged:
       return "not_converged";
   }

@@ -3,8 +3,10 @@
 // The observation chooses the branch: the start is minimised under a guide that pulls the rim
 // towards the observed outline, and the fit itself runs on guided drapes while the guide is
 // released (kappa = 1, 0.1, 0.01, 0). Exact data have zero residual at the truth for every kappa,
-// so the guide biases nothing; without it a fit from elsewhere ends on a neighbouring branch. Only
-// a fit that ends with kappa = 0 on a certified minimum counts.
+// so the guide biases nothing; without it a fit from elsewhere ends on a neighbouring branch. Where
+// a misfit above the noise remains, other guided starts are tried (branch_search.h). Only a fit
+// counts that ends with kappa = 0 on a certified minimum, with the nodes observed, and explains the
+// outline.
 //
 // Whether the support acts (core/contact.h) is decided once, at the guided start, and held from
 // there on: the loss stays continuous. The last state says whether it would have decided otherwise.
@@ -41,7 +43,8 @@ struct EstimateOptions {
 enum class EstimateOutcome {
   succeeded,      ///< guide released, converged, certified minimum
   no_start,       ///< no guided drape was found for the first parameters
-  branch_lost,    ///< releasing the guide left the branch
+  branch_lost,    ///< releasing the guide left the branch: the state is guided still
+  misfit,         ///< as succeeded, but the outline is missed by more than its noise
   not_converged,  ///< iterations or solves ran out, or the last steps all left the branch
 };
 std::string_view name(EstimateOutcome outcome);

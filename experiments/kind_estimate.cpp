@@ -123,11 +123,8 @@ RunOutcome run_estimate(const Settings& settings, OutputFolder& folder) {
   store.consolidate();
   nlohmann::ordered_json summary = recovery_summary(settings.estimate, store.load_all());
   const int succeeded = summary["succeeded"];
-  std::cout << summary["branches_shared"] << " of " << count
-            << " targets share a branch with their start; recovered (bending within 2 %, shear "
-               "within 10 %): "
-            << summary["recovered_of_shared"] << " of these, " << summary["recovered"]
-            << " of all\n";
+  std::cout << summary["recovered"] << " of " << count
+            << " recovered (bending within 2 %, shear within 10 %)\n";
   return {succeeded == count ? "ok" : succeeded > 0 ? "partial" : "failed", std::move(summary)};
 }
 

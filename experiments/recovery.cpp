@@ -107,10 +107,11 @@ EstimateRecord recover(const Settings& settings, const Potential& model, const R
   target.set_support(record.stats.contact == "support"
                          ? std::optional(support_contact(header.scene))
                          : std::nullopt);
-  const BranchTest branch = follow_target(target, record, start, options);
-  const bool continued = settings.estimate.start == EstimateStart::continued && branch.shared;
+  const BranchTest branch = settings.estimate.start == EstimateStart::continued
+                                ? follow_target(target, record, start, options)
+                                : BranchTest{};
   const Estimate result = estimate(target, header.scene, observation, start, options,
-                                   continued ? branch.start : std::nullopt);
+                                   branch.shared ? branch.start : std::nullopt);
   EstimateRecord kept =
       estimate_record(model, header.scene, result, observation, options.parameters);
   kept.branch_shared = branch.shared;

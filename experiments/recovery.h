@@ -18,9 +18,9 @@ VecX with_noise(const VecX& profile, double sd, std::uint64_t seed);
 EstimateOptions estimate_options(const Settings& settings);
 
 /// Estimates the parameters of a record from its profile (or coverage). `model` gives mesh, reading
-/// and gravity. The record's own equilibrium, where it has one, is used for two things: to say
-/// whether target and start share a branch (continuing target -> start -> target comes back within
-/// 1e-6 m), and, for start = "continued", for the first drape of the fit.
+/// and gravity. Only start = "continued" uses the record's own equilibrium: where target and start
+/// share a branch (continuing target -> start -> target comes back within 1e-6 m) the fit begins
+/// on it.
 EstimateRecord recover(const Settings& settings, const Potential& model, const Record& record,
                        const RecordsHeader& header, std::uint64_t seed);
 

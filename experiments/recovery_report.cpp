@@ -95,8 +95,10 @@ nlohmann::ordered_json recovery_summary(const EstimateSettings& settings,
       summary["recovered_by_drape_coefficient"][kBands[b].label] = {
           {"fabrics", band_fabrics[b]}, {"recovered", band_recovered[b]}};
   summary["failures"] = failures;
-  summary["branches_shared"] = shared;
-  summary["recovered_of_shared"] = shared_recovered;
+  if (settings.start == EstimateStart::continued) {
+    summary["branches_shared"] = shared;
+    summary["recovered_of_shared"] = shared_recovered;
+  }
   for (size_t i = 0; i < error.size(); ++i) {
     const std::string parameter(name(settings.parameters[i]));
     summary["median_parameter_error"][parameter] = median(error[i]);
