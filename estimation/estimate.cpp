@@ -73,7 +73,7 @@ class Estimation {
     VecX u = u_;
     double guided_miss = std::numeric_limits<double>::infinity();
     for (const GuidedStart& start : guided_starts(options_.guide, options_.guide_harmonics)) {
-      set_unknowns(u);
+      if (u != u_) set_unknowns(u);
       start_ = start;
       if (!guided_start()) continue;
       result_.outcome = EstimateOutcome::branch_lost;  // until the guide is gone
