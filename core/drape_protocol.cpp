@@ -66,35 +66,6 @@ Equilibrium ramp(Potential potential, const RampSteps& how, std::uint64_t seed,
   return result;
 }
 
-/// Minimises from x with a membrane so soft that the overhang's weight strains it by kSoftStrain,
-/// then with stiffer ones up to the fabric's own: a stiff membrane follows its folds in tiny steps.
-Equilibrium stiffened(Potential potential, const Scene& scene, const VecX& x,
-                      const EquilibriumOptions& options) {
-  const Fabric fabric = potential.fabric();
-  const double tension = fabric.areal_density * potential.gravity() *
-                         (scene.specimen_radius - scene.support_radius);  // [N/m]
-  const double stiffest = std::max({fabric.k_u, fabric.k_v, fabric.k_h});
-  Equilibrium result;
-  result.x = x;
-  for (double most = tension / kSoftStrain;; most *= kStiffening) {
-    const bool last = 3 * most > stiffest;
-    EquilibriumOptions step = options;
-    step.max_iterations -= result.newton_iterations;
-    Fabric softened = fabric;
-    if (!last) {
-      step.certify = false;
-      step.tolerance = std::max(kSoftTolerance, options.tolerance);
-      for (Parameter k : {Parameter::k_u, Parameter::k_v, Parameter::k_h})
-        softened[k] = std::min(fabric[k], most);
-    }
-    potential.set_fabric(softened);
-    Equilibrium next = solve_equilibrium(potential, result.x, step);
-    next.add_work_of(result);
-    result = std::move(next);
-    if (last || !result.converged()) return result;
-  }
-}
-
 /// A failure at less gravity, with a softer membrane or on another mesh ends a protocol: what is
 /// said of its state is to be true of the potential asked for.
 Equilibrium restated(const Potential& potential, Equilibrium result) {
@@ -184,11 +155,39 @@ VecX folded_state(const Mesh& mesh, const Scene& scene, int lobes, double phase)
   return x;
 }
 
+Equilibrium solve_stiffening(Potential potential, const Scene& scene, const VecX& x,
+                             const EquilibriumOptions& options) {
+  const Fabric fabric = potential.fabric();
+  const double tension = fabric.areal_density * potential.gravity() *
+                         (scene.specimen_radius - scene.support_radius);  // [N/m]
+  const double stiffest = std::max({fabric.k_u, fabric.k_v, fabric.k_h});
+  Equilibrium result;
+  result.x = x;
+  for (double most = tension / kSoftStrain;; most *= kStiffening) {
+    const bool last = 3 * most > stiffest;
+    EquilibriumOptions step = options;
+    step.max_iterations -= result.newton_iterations;
+    Fabric softened = fabric;
+    if (!last) {
+      step.certify = false;
+      step.tolerance = std::max(kSoftTolerance, options.tolerance);
+      for (Parameter k : {Parameter::k_u, Parameter::k_v, Parameter::k_h})
+        softened[k] = std::min(fabric[k], most);
+    }
+    potential.set_fabric(softened);
+    Equilibrium next = solve_equilibrium(potential, result.x, step);
+    next.add_work_of(result);
+    result = std::move(next);
+    if (last || !result.converged()) return result;
+  }
+}
+
 Equilibrium drape_by_lobes(const Potential& potential, const Scene& scene, int lobes, double phase,
                            const EquilibriumOptions& options) {
   Equilibrium result = chosen_on_coarse_mesh(
       potential, options, [&](const Potential& coarse, const EquilibriumOptions& loose) {
-        return stiffened(coarse, scene, folded_state(coarse.mesh(), scene, lobes, phase), loose);
+        return solve_stiffening(coarse, scene, folded_state(coarse.mesh(), scene, lobes, phase),
+                                loose);
       });
   std::ostringstream protocol;
   protocol << "lobes(" << lobes << ", " << phase << ")";

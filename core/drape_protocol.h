@@ -41,6 +41,12 @@ VecX noisy_flat_state(const Mesh& mesh, std::uint64_t seed);
 /// A start with `lobes` sinusoidal folds around the support; phase [rad] turns them. State 3n.
 VecX folded_state(const Mesh& mesh, const Scene& scene, int lobes, double phase);
 
+/// The equilibrium from x (3n), first with a membrane so soft that the overhang's weight strains it
+/// by some per cent, then with stiffer ones up to the fabric's own: a stiff membrane follows its
+/// folds in tiny steps and buckles on the way. Guide and support act as in the potential.
+Equilibrium solve_stiffening(Potential potential, const Scene& scene, const VecX& x,
+                             const EquilibriumOptions& options = {});
+
 /// Drapes from folded_state on the coarse mesh, without a guide; result.protocol: "lobes(n,
 /// phase)". Counts and times are those of both meshes.
 Equilibrium drape_by_lobes(const Potential& potential, const Scene& scene, int lobes, double phase,

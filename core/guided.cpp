@@ -12,7 +12,7 @@ Equilibrium solve_under_guide(const Potential& potential, const Scene& scene, co
   Potential guided = potential;
   guided.set_guide(guide);
   Equilibrium result =
-      solve_equilibrium(guided, state_from_outline(potential.mesh(), scene, guide), options);
+      solve_stiffening(guided, scene, state_from_outline(potential.mesh(), scene, guide), options);
   result.protocol = "guided";
   return result;
 }

@@ -5,7 +5,9 @@
 // rim towards the observed outline, and the fit itself runs on guided drapes while the guides of
 // all pictures are released together (kappa = 1, 0.1, 0.01, 0). Exact data have zero residual at
 // the truth for every kappa, so the guide biases nothing; without it a fit from elsewhere ends on a
-// neighbouring branch. Only a fit that ends with kappa = 0 on a certified minimum counts.
+// neighbouring branch. Where a misfit above the noise remains, other guided starts are tried
+// (branch_search.h). Only a fit counts that ends with kappa = 0 on a certified minimum, with the
+// nodes observed, and explains the outlines.
 //
 // Whether the support acts (core/contact.h) is decided once, at the guided start, and held from
 // there on: the loss stays continuous. The last state says whether it would have decided otherwise.
@@ -45,6 +47,7 @@ struct EstimateOptions {
 /// From good to bad.
 enum class EstimateOutcome {
   succeeded,      ///< guide released, converged, certified minimum
+  misfit,         ///< as succeeded, but an outline is missed by more than its noise
   not_converged,  ///< iterations or solves ran out, or the last steps all left the branch
   branch_lost,    ///< releasing the guide left the branch
   no_start,       ///< no guided drape was found for the first parameters

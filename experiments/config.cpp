@@ -340,6 +340,11 @@ void check_together(const Loaded& loaded, const std::string& name) {
            "mesh.vertices = \"auto\" follows one drape; an ensemble needs a count");
   if (kind == Kind::branches && !(settings.branches.softest < settings.branches.stiffest))
     refuse("branches.softest", "branches.softest must be less than branches.stiffest");
+  for (const auto& [key, range] :
+       {std::pair{"estimate.drape_coefficient", settings.estimate.drape_coefficient},
+        {"estimate.anisotropy", settings.estimate.anisotropy}})
+    if (range.size() != 2 || !(range[0] < range[1]))
+      refuse(key, std::string(key) + " must be two values, from less than to");
   const bool only_forward = kind == Kind::drape || kind == Kind::dataset ||
                             kind == Kind::robustness || kind == Kind::validation ||
                             kind == Kind::accuracy;

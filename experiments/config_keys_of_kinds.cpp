@@ -19,6 +19,21 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("estimate", "fabrics", "", at_least(1),
       "Number of random fabrics to recover; a dataset overrides it.",
       DRAPE_MEMBER(estimate.fabrics));
+  add("estimate", "distribution", "", kAny,
+      "Random fabrics of a wide box, or of the distribution measured on 618 fabrics.",
+      DRAPE_MEMBER(estimate.distribution));
+  add("estimate", "drape_coefficient", "per cent", {0, 100, true},
+      "From .. to: random fabrics that drape outside are drawn again.",
+      DRAPE_MEMBER(estimate.drape_coefficient));
+  add("estimate", "anisotropy", "", at_least(1),
+      "From .. to: largest bending stiffness over the smallest; others are drawn again.",
+      DRAPE_MEMBER(estimate.anisotropy));
+  add("estimate", "protocols", "", kAny,
+      "Start protocols of the random targets, taken in turn; [] for start.protocol.",
+      DRAPE_MEMBER(estimate.protocols));
+  add("estimate", "lobes", "", {1, 60, true},
+      "Numbers of lobes that the protocol lobes draws from, with a random phase.",
+      DRAPE_MEMBER(estimate.lobes));
   add("estimate", "dataset", "", kAny, "A results.h5 with observations; \"\" for random fabrics.",
       DRAPE_MEMBER(estimate.dataset));
   add("estimate", "records", "", kNotNegative, "Which records of the dataset; [] for all.",
@@ -31,11 +46,12 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("estimate", "parameters", "", kAny, "The parameters to estimate; the others are held.",
       DRAPE_MEMBER(estimate.parameters));
   add("estimate", "perturbation", "", at_least(1),
-      "Factor by which the start is wrong where the truth is known.",
+      "Largest factor by which the start is wrong where the truth is known.",
       DRAPE_MEMBER(estimate.perturbation));
-  add("estimate", "perturb_either_way", "", kAny,
-      "Divide some parameters by that factor, chosen by the seed, instead of multiplying all.",
-      DRAPE_MEMBER(estimate.perturb_either_way));
+  add("estimate", "perturb", "", kAny,
+      "Every unknown times that factor (\"up\"), times or divided by it (\"either_way\"), or times "
+      "a log-uniform factor from its inverse to it (\"random\"); by the seed.",
+      DRAPE_MEMBER(estimate.perturb));
   add("estimate", "max_iterations", "", at_least(1), "Iterations of one fit at most.",
       DRAPE_MEMBER(estimate.max_iterations));
   add("estimate", "bounds", "", {1, kInfinity, false},

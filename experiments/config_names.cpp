@@ -34,6 +34,14 @@ std::vector<std::string> names_of<OutlineLoss>() {
   return {"profile", "coverage"};
 }
 template <>
+std::vector<std::string> names_of<TargetFabrics>() {
+  return {"box", "measured"};
+}
+template <>
+std::vector<std::string> names_of<Perturb>() {
+  return {"up", "either_way", "random"};
+}
+template <>
 std::vector<std::string> names_of<EstimateStart>() {
   return {"guided", "continued"};
 }

@@ -24,6 +24,10 @@ std::vector<std::string> names_of<FitMethod>();
 template <>
 std::vector<std::string> names_of<OutlineLoss>();
 template <>
+std::vector<std::string> names_of<TargetFabrics>();
+template <>
+std::vector<std::string> names_of<Perturb>();
+template <>
 std::vector<std::string> names_of<EstimateStart>();
 template <>
 std::vector<std::string> names_of<PriorKind>();

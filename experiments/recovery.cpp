@@ -51,8 +51,13 @@ Fabric perturbed(const Fabric& truth, const EstimateSettings& settings, std::uin
   Random random(seed);
   Fabric fabric = truth;
   for (Parameter p : settings.parameters) {
-    const bool up = !settings.perturb_either_way || random.sign() > 0;
-    if (is_logarithmic(p)) fabric[p] *= up ? settings.perturbation : 1 / settings.perturbation;
+    if (!is_logarithmic(p)) continue;
+    const double most = std::log(settings.perturbation);
+    const double log_factor = settings.perturb == Perturb::up ? most
+                              : settings.perturb == Perturb::either_way
+                                  ? random.sign() * most
+                                  : random.uniform(-most, most);
+    fabric[p] *= std::exp(log_factor);
   }
   return fabric;
 }
@@ -115,7 +120,7 @@ EstimateRecord recover(const Settings& settings, const Potential& model, const R
   observation.grid = header.grid;
   observation.coverage = record.observation.coverage;
 
-  const Fabric start = perturbed(record.fabric, settings.estimate, seed);
+  const Fabric start = perturbed(record.fabric, settings.estimate, seed_of_item(seed, 2));
   const Structure structure =
       record.category.empty() ? Structure::woven : structure_from_category(record.category);
   options.prior = fit_prior(settings, settings.estimate.prior, structure, start);
@@ -123,9 +128,11 @@ EstimateRecord recover(const Settings& settings, const Potential& model, const R
   target.set_support(record.stats.contact == "support"
                          ? std::optional(support_contact(header.scene))
                          : std::nullopt);
-  const BranchTest branch = follow_target(target, record, start, options);
-  const bool continued = settings.estimate.start == EstimateStart::continued && branch.shared;
-  const Picture picture{target, header.scene, observation, continued ? branch.start : std::nullopt};
+  const BranchTest branch = settings.estimate.start == EstimateStart::continued
+                                ? follow_target(target, record, start, options)
+                                : BranchTest{};
+  const Picture picture{target, header.scene, observation,
+                        branch.shared ? branch.start : std::nullopt};
   const Estimate result = estimate({picture}, start, options);
   EstimateRecord kept =
       estimate_record(picture, result.pictures.front(), result, options.parameters);

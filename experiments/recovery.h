@@ -10,8 +10,7 @@
 
 namespace drape {
 
-/// The first parameters of a fit: the truth times the perturbation, or for some parameters (chosen
-/// by the seed) divided by it.
+/// The first parameters of a fit: the truth, perturbed as the settings say; `seed` chooses.
 Fabric perturbed(const Fabric& truth, const EstimateSettings& settings, std::uint64_t seed);
 
 /// Adds smooth noise of standard deviation `sd` [m] to a profile: harmonics 0 to `harmonic_count`,
@@ -26,9 +25,9 @@ std::optional<Prior> fit_prior(const Settings& settings, PriorKind kind, Structu
                                const Fabric& start);
 
 /// Estimates the parameters of a record from its profile (or coverage). `model` gives mesh, reading
-/// and gravity. The record's own equilibrium, where it has one, is used for two things: to say
-/// whether target and start share a branch (continuing target -> start -> target comes back within
-/// 1e-6 m), and, for start = "continued", for the first drape of the fit.
+/// and gravity. Only start = "continued" uses the record's own equilibrium: where target and start
+/// share a branch (continuing target -> start -> target comes back within 1e-6 m) the fit begins
+/// on it.
 EstimateRecord recover(const Settings& settings, const Potential& model, const Record& record,
                        const RecordsHeader& header, std::uint64_t seed);
 

@@ -90,6 +90,13 @@ struct BranchesSettings {
   double largest_step = 0.05;         ///< of the logarithm
 };
 
+/// Where the random fabrics of a recovery come from.
+enum class TargetFabrics { box, measured };
+
+/// How wrong the first parameters of a fit are where the truth is known: all times a factor, some
+/// times and some divided by it, or each times a log-uniform factor up to it, either way.
+enum class Perturb { up, either_way, random };
+
 /// How the first drape of a fit is found.
 enum class EstimateStart {
   guided,     ///< from the outline alone
@@ -101,14 +108,20 @@ enum class PriorKind { none, start, weight };
 
 struct EstimateSettings {
   int fabrics = 20;
-  std::filesystem::path dataset;  ///< empty: random fabrics
-  std::vector<int> records;       ///< empty: all
+  TargetFabrics distribution = TargetFabrics::box;
+  std::vector<double> drape_coefficient{0, 100};  ///< of random targets, from .. to [per cent]
+  std::vector<double> anisotropy{1,
+                                 100};    ///< largest hinge stiffness over the smallest, from .. to
+  std::vector<StartProtocol> protocols;   ///< taken in turn; empty: that of the settings
+  std::vector<int> lobes{4, 5, 6, 7, 8};  ///< of the protocol lobes, drawn at random
+  std::filesystem::path dataset;          ///< empty: random fabrics
+  std::vector<int> records;               ///< empty: all
   FitMethod method = FitMethod::levenberg_marquardt;
   OutlineLoss loss = OutlineLoss::profile;
   std::vector<Parameter> parameters{Parameter::k_h, Parameter::k_bu, Parameter::k_bv,
                                     Parameter::k_bh};
   double perturbation = 2;
-  bool perturb_either_way = false;
+  Perturb perturb = Perturb::up;
   int max_iterations = 60;
   double bounds = 100;
   double outline_noise = 5e-4;  ///< [m]

@@ -171,6 +171,7 @@ TEST(Estimate, ContactIsDecidedAtTheStartAndHeld) {
   options.parameters = {Parameter::k_bh};
   options.max_iterations = 1;
   options.guide = {10};
+  seen.noise = 1;  // any drape explains this outline: one start
 
   const Estimate held = estimate({{model, kCusick, seen}}, soft_fabric(), options);
   EXPECT_NE(held.outcome, EstimateOutcome::no_start);
@@ -209,10 +210,29 @@ TEST(Estimate, FromAStateInContactContactIsHeld) {
   EXPECT_LE(found.pictures[0].outline_rms, 1e-6);  // it starts at the truth
 }
 
+TEST(Estimate, AMissAboveTheNoiseIsNoSuccess) {
+  // One stiffness alone cannot explain the outline of a fabric twice as stiff in the others.
+  OutlineObservation seen = truth().seen;
+  EstimateOptions options;
+  options.parameters = {Parameter::k_bu};
+  Fabric start = stiff_fabric();
+  start.k_bv *= 2;
+  start.k_bh *= 2;
+  seen.noise = 1e-5;
+  options.guide = {1};
+  options.bound_factor = 1.5;
+  const Estimate found = estimate(truth().potential, kCusick, seen, start, options, std::nullopt);
+  EXPECT_TRUE(found.outcome == EstimateOutcome::misfit ||
+              found.outcome == EstimateOutcome::branch_lost)
+      << name(found.outcome);
+  EXPECT_GT(found.outline_rms, 1.5 * seen.noise);
+}
+
 TEST(Estimate, OutcomesHaveNames) {
   EXPECT_EQ(name(EstimateOutcome::succeeded), "succeeded");
   EXPECT_EQ(name(EstimateOutcome::no_start), "no_start");
   EXPECT_EQ(name(EstimateOutcome::branch_lost), "branch_lost");
+  EXPECT_EQ(name(EstimateOutcome::misfit), "misfit");
   EXPECT_EQ(name(EstimateOutcome::not_converged), "not_converged");
 }
 

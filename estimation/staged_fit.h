@@ -1,0 +1,83 @@
+// A fit in stages on one branch: laid along the observed outlines, then minimised under guides that
+// grow weaker, then free. Each picture has its own guide and its own branch.
+//
+// A state of the fit (FitState) can be kept and taken up again, so that a search over several
+// guided starts (estimate.cpp) may fall back on the best.
+#pragma once
+
+#include <vector>
+
+#include "estimation/branch_search.h"
+#include "estimation/estimate.h"
+
+namespace drape {
+
+/// How far a fit has come.
+struct FitState {
+  VecX u;         ///< unknowns (drape_objective.h)
+  Fabric fabric;  ///< of u
+  double kappa = 0;
+  std::vector<PictureEstimate> pictures;
+  double cost = std::numeric_limits<double>::infinity();  ///< of a free fit
+  std::string message;
+};
+
+class StagedFit {
+ public:
+  StagedFit(const std::vector<Picture>& pictures, const Fabric& start,
+            const EstimateOptions& options);
+
+  /// The drape of every picture under the guides of a start, at the unknowns at hand; false when
+  /// one has none. What acts on each drape is decided here.
+  bool lay_along(const GuidedStart& start);
+
+  /// The start states that the pictures bring.
+  void take_start_states();
+
+  /// The drapes at hand under guides of another strength (0: none); false when one has none near
+  /// by.
+  bool set_guides(double kappa);
+
+  /// Minimises over the unknowns on the branches at hand. True where that has converged.
+  bool minimise(double tolerance, int max_iterations);
+
+  const FitState& state() const { return state_; }
+  /// Goes back to a state: its unknowns, its drapes, its guides' strength.
+  void take_up(const FitState& state) { state_ = state; }
+  /// Goes back to unknowns alone; the drapes are to be laid again.
+  void set_unknowns(const VecX& u);
+
+  /// Largest rms miss of an outline over the standard deviation of its noise.
+  double largest_miss() const;
+  /// Whether every drape has as many nodes as its picture.
+  bool same_nodes() const;
+  VecX profile_of(size_t picture) const;
+
+  /// Looks at the drapes at hand and measures their misfits.
+  void examine();
+  /// Laplace's posterior at the state at hand; NaN unless its drapes are free and stable.
+  Posterior posterior();
+
+  int forward_solves() const { return solves_ + objective_.solves(); }
+  int iterations() const { return iterations_; }
+
+ private:
+  const ParameterSpace& space() const { return objective_.space(); }
+  size_t pictures() const { return potentials_.size(); }
+  const Picture& picture(size_t i) const { return objective_.picture(i); }
+  Guide guide_of(size_t i, double kappa) const;
+  bool lay_along(size_t i, const GuidedStart& start);
+  ContinuationOptions continuation() const;
+  void make_known(size_t i);
+  bool keep_drapes(const VecX& u);
+
+  EstimateOptions options_;
+  Fabric start_;
+  DrapeObjective objective_;
+  std::vector<Potential> potentials_;  // with the last guides
+  int guide_harmonics_;
+  FitState state_;
+  int solves_ = 0, iterations_ = 0;
+};
+
+}  // namespace drape
