@@ -218,6 +218,16 @@ std::vector<Record> read_records(const fs::path& path, size_t first, size_t coun
   });
 }
 
+void visit_records(const fs::path& path,
+                   const std::function<void(size_t index, const Record& record)>& visit) {
+  const size_t count = record_count(path);
+  for (size_t first = 0; first < count; first += kBlock) {
+    size_t index = first;
+    for (const Record& record : read_records(path, first, std::min(kBlock, count - first)))
+      visit(index++, record);
+  }
+}
+
 std::vector<Record> read_records(const fs::path& path) {
   return read_records(path, 0, record_count(path));
 }

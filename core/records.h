@@ -132,6 +132,9 @@ size_t record_count(const std::filesystem::path& file);
 /// All records of a table, or `count` of them from `first` on; throws RecordError.
 std::vector<Record> read_records(const std::filesystem::path& file);
 std::vector<Record> read_records(const std::filesystem::path& file, size_t first, size_t count);
+/// Calls `visit` for all records of a table in order, some in memory at a time; throws RecordError.
+void visit_records(const std::filesystem::path& file,
+                   const std::function<void(size_t index, const Record& record)>& visit);
 
 /// A text of some lines: schema, provenance, mesh, number of records, columns with shapes and
 /// ranges, share of converged solves. Throws RecordError.

@@ -306,6 +306,10 @@ void check_together(const Loaded& loaded, const std::string& name) {
     if (!(settings.photograph.areal_density > 0))
       refuse("photograph.areal_density", "a photograph needs photograph.areal_density > 0 kg/m^2");
   }
+  if (settings.dataset.shard > settings.dataset.shards)
+    refuse("dataset.shard", "dataset.shard must be 1 to dataset.shards");
+  if (!settings.dataset.table.empty() && !settings.dataset.parameters.empty())
+    refuse("dataset.parameters", "dataset.table and dataset.parameters exclude each other");
   if (kind == Kind::quickstart && settings.quickstart.table.empty())
     refuse("experiment.kind", "the quickstart needs quickstart.table");
   if (settings.start.protocol == StartProtocol::guided &&

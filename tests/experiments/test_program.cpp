@@ -302,7 +302,7 @@ TEST_F(Program, AFailedFabricIsReplayedByTheCommandThatTheSummaryNames) {
 
 TEST_F(Program, InterruptedIsExitCode130AndResumable) {
   const std::string command = DRAPE_PROGRAM
-      " run a.toml --out out --set experiment.kind=dataset --set dataset.fabrics=100000";
+      " run a.toml --out out --set experiment.kind=dataset --set dataset.fabrics=3000";
   for (int session = 0; session < 2; ++session) {
     const Ended ended = shell("timeout --preserve-status --signal=INT 2 " + command);
     EXPECT_EQ(ended.exit_code, 130) << ended.text;
