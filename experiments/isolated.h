@@ -12,4 +12,8 @@ namespace drape {
 /// called before there are threads.
 int isolated(const std::string& file, const std::function<int()>& work);
 
+/// Runs `work` in a child process that ends with it: throws std::invalid_argument if it crashes. An
+/// exception is none of its business: the work is to be done here after it.
+void probe(const std::string& file, const std::function<void()>& work);
+
 }  // namespace drape

@@ -65,14 +65,17 @@ void print_content(const OutputFolder& folder) {
 void check_inputs(const Settings& settings) {
   const Kind kind = settings.experiment.kind;
   if (settings.start.protocol == StartProtocol::guided) start_profile(settings);
-  if (kind == Kind::photograph)
+  if (kind == Kind::photograph) {
     for (const std::filesystem::path& file : settings.photograph.files)
       read_photograph(file, 1e-3 * settings.photograph.mm_per_pixel, settings.scene);
-  else if (kind == Kind::estimate && !settings.estimate.dataset.empty())
-    read_header(settings.estimate.dataset);
-  else if (kind == Kind::dataset &&
-           !(settings.dataset.table.empty() && settings.dataset.parameters.empty()))
+  } else if (kind == Kind::estimate && !settings.estimate.dataset.empty()) {
+    const std::filesystem::path& file = settings.estimate.dataset;
+    probe(file.string(), [&file] { visit_records(file, [](size_t, const Record&) {}); });
+    read_header(file);
+  } else if (kind == Kind::dataset &&
+             !(settings.dataset.table.empty() && settings.dataset.parameters.empty())) {
     DatasetFabrics(settings).chosen();
+  }
 }
 
 int run(const Settings& settings, const std::filesystem::path& out) {

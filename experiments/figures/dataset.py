@@ -81,10 +81,14 @@ def types(page, left, top, width, table):
     counts = Counter(table.type)
     bars(page, left, top, width, f"{len(counts)} types", counts,
          lambda label: COLOURS.get(category[label], COLOURS[""]))
+
+
+def categories(page, table):
+    """The key of the colours, in one row."""
     shown = [name for name in COLOURS if name in set(table.category)]
     for i, name in enumerate(shown):
-        page.text(left + width - 8, top + 5 + BAR * (len(counts) - 1 - 1.6 * i), name or "no tag",
-                  ha="right", va="bottom", color=COLOURS[name], weight="bold", fontsize=6.5)
+        page.text(page.width - MARGIN - 34 * (len(shown) - i), 11, name or "no tag",
+                  color=COLOURS[name], weight="bold", fontsize=6.5)
 
 
 def fibres(page, left, top, width, table):
@@ -105,8 +109,9 @@ def weight_and_bending(page, left, top, width, height, table):
         weight = [1e3 * float(row["density_kg_m2"]) for row in rows]
         mean = [1e-3 * sum(float(row[f"lin_{d}"]) for d in ("warp", "weft", "diag")) / 3
                 for row in rows]
-        axes.scatter(weight, mean, s=5, color=style.FAINT, linewidth=0,
-                     label="618 measured fabrics (Feng et al. 2022)")
+        axes.scatter(weight, mean, s=5, color=style.FAINT, linewidth=0)
+        page.text(left + 34, top + 0.7, "grey: 618 measured fabrics (Feng et al. 2022)",
+                  fontsize=6, color="#666666")
     rigidity = 4 * RIGIDITY @ np.array([table.k_bu, table.k_bv, table.k_bh])
     size = np.clip(2000 / max(table.count, 1), 1.5, 8)
     for name, colour in COLOURS.items():
@@ -117,23 +122,20 @@ def weight_and_bending(page, left, top, width, height, table):
     axes.set(xscale="log", yscale="log", xlabel="g/m²")
     axes.set_ylabel("mean B, µN m", labelpad=1)
     axes.xaxis.set_minor_formatter(lambda *_: "")
-    if rows:
-        axes.legend(loc="lower right", fontsize=6, frameon=False)
 
 
 def histogram(page, left, top, width, height, title, values, edges, photographs):
     """A histogram; short lines below the axis mark photographed fabrics."""
     page.text(left, top, title, fontsize=8, weight="bold")
-    axes = page.axes(left, top + 5, width, height - 14)
+    axes = page.axes(left, top + 8, width, height - 17)
     axes.hist(values, bins=edges, color=style.ESTIMATE, alpha=0.8)
     axes.set(xlim=(edges[0], edges[-1]))
-    axes.tick_params(left=False, labelleft=False)
+    axes.set_yticks([])
     for side in ("left", "right", "top"):
         axes.spines[side].set_visible(False)
     if photographs:
         axes.plot(photographs, np.zeros(len(photographs)), "|", color=style.WARNING, markersize=9,
-                  clip_on=False, label="20 photographed fabrics\n(Gong et al. 2024)")
-        axes.legend(loc="upper right", fontsize=6, frameon=False)
+                  clip_on=False)
 
 
 def chosen(table):
@@ -179,6 +181,7 @@ def picture(table):
     page.text(MARGIN, 4, "The dataset", fontsize=12, weight="bold")
     page.text(MARGIN, 11, f"{table.count} fabrics, {int(table.converged.sum())} with a certified "
                           "drape; types, fibres and weights by the tag model", fontsize=7.5)
+    categories(page, table)
     types(page, MARGIN, HEAD, 98, table)
     fibres(page, MARGIN + 102, HEAD, 90, table)
     right = MARGIN + 206
@@ -191,6 +194,9 @@ def picture(table):
     histogram(page, right + 52, HEAD + chart, 30, chart, "Nodes", table.nodes[solved],
               np.arange(-0.5, max(20, table.nodes.max() + 2)),
               [float(row["nodes_mean"]) for row in photographs])
+    if photographs:
+        page.text(right, HEAD + chart + 4, "|  means of photographed fabrics (Gong et al. 2024)",
+                  fontsize=6, color=style.WARNING)
     contact_sheet(page, HEAD + upper + 4, table)
     page.text(MARGIN, page.height - 5,
               "Drapes seen from above, weft to the right; colours: category. "
