@@ -23,7 +23,8 @@ std::string misspelt(CLI::App& app, const std::vector<std::string>& words) {
 
   CLI::App* active = &app;
   for (auto word = words.begin(); word != words.end(); ++word) {
-    const auto subcommands = active->get_subcommands([](CLI::App*) { return true; });
+    const auto subcommands = active->get_subcommands(
+        [](CLI::App* of) { return !of->get_name().empty(); });  // groups of options have none
     if (subcommands.empty() || is_option(*word)) continue;
     std::vector<std::string> commands;
     CLI::App* next = nullptr;
@@ -57,10 +58,11 @@ void add_dataset_commands(CLI::App& app, DatasetCommand& command) {
     return sub;
   };
   const auto add_file = [&](CLI::App* sub) {
-    sub->add_option("FILE", command.files, "Records in HDF5")
+    sub->add_option_function<std::string>(
+           "FILE", [&command](const std::string& file) { command.files = {file}; },
+           "Records in HDF5")
         ->type_name("")
-        ->required()
-        ->expected(1);
+        ->required();
   };
   CLI::App* merge = add("merge", "Put the shards of a set together", DatasetAction::merge);
   merge->add_option("OUT", command.out, "New file")->type_name("")->required();

@@ -177,8 +177,9 @@ TEST_F(Dataset, IsExportedAndMigrated) {
       ASSERT_GE(H5Ldelete(file, ("/stats/" + std::string(name)).c_str(), H5P_DEFAULT), 0);
     ASSERT_GE(H5Fclose(file), 0);
   }
-  ASSERT_EQ(drape("dataset migrate old.h5 new.h5").exit_code, 0);
-  EXPECT_TRUE(drape("info new.h5").says("drape-records 2"));
+  const Ended migrated = drape("dataset migrate old.h5 new.h5");
+  ASSERT_EQ(migrated.exit_code, 0) << migrated.text;
+  EXPECT_TRUE(drape("info new.h5").says("drape-records 3"));
   EXPECT_EQ(read_records(scratch / "new.h5").at(1).positions,
             read_records(table("a")).at(1).positions);
 

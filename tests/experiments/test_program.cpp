@@ -56,7 +56,7 @@ class Program : public ProgramInFolder {
 TEST_F(Program, HelpAndVersion) {
   EXPECT_EQ(drape("--help").exit_code, 0);
   EXPECT_TRUE(drape("--version").says("drape "));
-  for (const char* command : {"run", "validate", "explain", "info", "estimate"}) {
+  for (const char* command : {"run", "validate", "explain", "info", "estimate", "dataset", "tag"}) {
     const Ended ended = drape(std::string(command) + " --help");
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_TRUE(ended.says(std::string("drape ") + command)) << ended.text;
