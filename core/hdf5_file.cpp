@@ -95,6 +95,17 @@ Id make_space(const Shape& shape) {
   return Id(space, H5Sclose, "HDF5 shape " + to_string(shape));
 }
 
+/// Selects rows [first, first + count) of a space; returns the shape they have in memory.
+Shape select_rows(hid_t space, hsize_t first, hsize_t count, const std::string& what) {
+  Shape shape = shape_of(space);
+  Shape start(shape.size(), 0);
+  start.at(0) = first;
+  shape.at(0) = count;
+  check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, shape.data(), nullptr),
+        what);
+  return shape;
+}
+
 /// What H5Dread, H5Aread and their writing twins have in common: text goes through char pointers.
 /// `transfer(memory type, buffer)` moves the values.
 template <class T, class Transfer>
@@ -181,16 +192,10 @@ bool Dataset::is_number() const {
 template <class T>
 std::vector<T> Dataset::read_rows(hsize_t first, hsize_t count) const {
   const Id file_space(H5Dget_space(id_), H5Sclose, "unreadable shape");
-  Shape shape = shape_of(file_space);
-  Shape start(shape.size(), 0);
-  start.at(0) = first;
-  shape.at(0) = count;
+  const std::string what = "dataset " + path_ + " cannot be read";
+  const Shape shape = select_rows(file_space, first, count, what);
   if (product(shape) == 0) return {};
   const Id memory_space = make_space(shape);
-  const std::string what = "dataset " + path_ + " cannot be read";
-  check(
-      H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, shape.data(), nullptr),
-      what);
   return read_values<T>(shape, what, [&](hid_t type, void* buffer) {
     return H5Dread(id_, type, memory_space, file_space, H5P_DEFAULT, buffer);
   });
@@ -225,25 +230,35 @@ std::vector<std::string> File::datasets() const {
 }
 
 template <class T>
-void File::write(const std::string& path, const Shape& shape, const Shape& chunk,
-                 const std::vector<T>& values) const {
-  const std::string what = "dataset " + path + " cannot be written";
+void File::create(const std::string& path, const Shape& shape, const Shape& chunk) const {
+  const std::string what = "dataset " + path + " cannot be made";
   const Id space = make_space(shape);
   const Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, what);
   check(H5Pset_create_intermediate_group(links, 1), what);
   const Id storage(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
   constexpr bool kText = std::is_same_v<T, std::string>;  // filters do not reach its bytes
-  if (!kText && !values.empty()) {  // the library takes no chunk larger than the dataset
+  if (!kText && product(shape) > 0) {  // the library takes no chunk larger than the dataset
     check(H5Pset_chunk(storage, static_cast<int>(chunk.size()), chunk.data()), what);
     check(H5Pset_shuffle(storage), what);
     check(H5Pset_deflate(storage, kCompressionLevel), what);
     check(H5Pset_fletcher32(storage), what);
   }
-  const Id data(H5Dcreate2(id_, path.c_str(), disk_type<T>(), space, links, storage, H5P_DEFAULT),
-                H5Dclose, what);
+  Id(H5Dcreate2(id_, path.c_str(), disk_type<T>(), space, links, storage, H5P_DEFAULT), H5Dclose,
+     what)
+      .close(what);
+}
+
+template <class T>
+void File::write_rows(const std::string& path, hsize_t first, hsize_t count,
+                      const std::vector<T>& values) const {
   if (values.empty()) return;
+  const std::string what = "dataset " + path + " cannot be written";
+  const Id data(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose, what);
+  const Id file_space(H5Dget_space(data), H5Sclose, what);
+  const Shape rows = select_rows(file_space, first, count, what);
+  const Id memory_space = make_space(rows);
   write_values(values, what, [&](hid_t type, const void* buffer) {
-    return H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
+    return H5Dwrite(data, type, memory_space, file_space, H5P_DEFAULT, buffer);
   });
 }
 
@@ -336,11 +351,12 @@ void File::close() {
   if (flushed < 0) throw Error("cannot be written" + why);
 }
 
-#define DRAPE_HDF5_ELEMENT(T)                                                  \
-  template std::string type_name<T>();                                         \
-  template std::vector<T> Dataset::read_rows<T>(hsize_t, hsize_t) const;       \
-  template void File::write<T>(const std::string&, const Shape&, const Shape&, \
-                               const std::vector<T>&) const;                   \
+#define DRAPE_HDF5_ELEMENT(T)                                                                    \
+  template std::string type_name<T>();                                                           \
+  template std::vector<T> Dataset::read_rows<T>(hsize_t, hsize_t) const;                         \
+  template void File::create<T>(const std::string&, const Shape&, const Shape&) const;           \
+  template void File::write_rows<T>(const std::string&, hsize_t, hsize_t, const std::vector<T>&) \
+      const;                                                                                     \
   template Dataset File::dataset<T>(const std::string&, const Shape&) const;
 DRAPE_HDF5_ELEMENT(double)
 DRAPE_HDF5_ELEMENT(std::int32_t)

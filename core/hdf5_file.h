@@ -69,6 +69,7 @@ class Dataset {
   Shape shape() const;
   std::string type_name() const;
   bool is_number() const;
+  hid_t id() const { return id_; }
   /// All values of the rows [first, first + count), the last dimension fastest. Numbers are
   /// converted to T. Throws Error if the file is damaged or the types cannot be converted.
   template <class T>
@@ -89,15 +90,26 @@ class File {
   static File create(const std::filesystem::path& path);
   static File open(const std::filesystem::path& path);  ///< for reading
 
+  hid_t id() const { return id_; }
   bool has_group(const std::string& path) const;  ///< of the root: "/sim"
   /// Paths of all datasets, sorted.
   std::vector<std::string> datasets() const;
 
-  /// Writes a dataset. Numbers are stored in chunks of the given shape, each compressed (gzip after
+  /// Makes a dataset. Numbers are stored in chunks of the given shape, each compressed (gzip after
   /// shuffle) and with a check sum, so that damage shows when it is read; text is stored as it is.
   template <class T>
+  void create(const std::string& path, const Shape& shape, const Shape& chunk) const;
+  /// Writes its rows [first, first + count). Rows never written read as zero.
+  template <class T>
+  void write_rows(const std::string& path, hsize_t first, hsize_t count,
+                  const std::vector<T>& values) const;
+  /// Both, for all rows.
+  template <class T>
   void write(const std::string& path, const Shape& shape, const Shape& chunk,
-             const std::vector<T>& values) const;
+             const std::vector<T>& values) const {
+    create<T>(path, shape, chunk);
+    write_rows(path, 0, shape.at(0), values);
+  }
   /// Throws Error, which names what is there and what should be, if it is missing.
   Dataset dataset(const std::string& path) const;
   /// The same for a dataset of another element type or shape than expected.

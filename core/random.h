@@ -22,6 +22,12 @@ class Random {
   double log_uniform(double low, double high) {
     return std::exp(uniform(std::log(low), std::log(high)));
   }
+  /// Normal with mean 0 and standard deviation 1 (Box and Muller).
+  double normal() {
+    constexpr double kPi = 3.14159265358979323846;
+    const double radius = std::sqrt(-2 * std::log1p(-uniform()));
+    return radius * std::cos(2 * kPi * uniform());
+  }
   /// -1 or +1.
   double sign() { return (engine_() >> 63) != 0 ? 1.0 : -1.0; }
 

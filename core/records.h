@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -119,10 +120,21 @@ struct Record {
 void write_records(const std::filesystem::path& file, const RecordsHeader& header,
                    const std::vector<Record>& records);
 
+/// The same for a table larger than memory: `record(index)` is called for 0, 1, ... in order, and
+/// may itself read files of records. What it throws passes through.
+void write_records(const std::filesystem::path& file, const RecordsHeader& header, size_t count,
+                   const std::function<Record(size_t index)>& record);
+
 /// The header of a table; throws RecordError.
 RecordsHeader read_header(const std::filesystem::path& file);
-/// All records of a table; throws RecordError.
+/// How many records a table has; throws RecordError.
+size_t record_count(const std::filesystem::path& file);
+/// All records of a table, or `count` of them from `first` on; throws RecordError.
 std::vector<Record> read_records(const std::filesystem::path& file);
+std::vector<Record> read_records(const std::filesystem::path& file, size_t first, size_t count);
+/// Calls `visit` for all records of a table in order, some in memory at a time; throws RecordError.
+void visit_records(const std::filesystem::path& file,
+                   const std::function<void(size_t index, const Record& record)>& visit);
 
 /// A text of some lines: schema, provenance, mesh, number of records, columns with shapes and
 /// ranges, share of converged solves. Throws RecordError.

@@ -1,14 +1,13 @@
 #include "estimation/tag.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 #include "estimation/bending_rigidity.h"
+#include "estimation/csv_table.h"
 
 namespace drape {
 namespace {
@@ -18,40 +17,6 @@ constexpr std::string_view kHeader =
 constexpr size_t kColumns = 6;
 /// Outside of this range a density is a mistake of unit: tissue paper has 15 g/m^2, carpet 3000.
 constexpr double kLightest = 1, kHeaviest = 10000;  // [g/m^2]
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (size_t end = 0; end != std::string_view::npos;) {
-    end = text.find(separator);
-    parts.push_back(trimmed(text.substr(0, end)));
-    if (end != std::string_view::npos) text.remove_prefix(end + 1);
-  }
-  return parts;
-}
-
-std::optional<double> number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
-}
-
-std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
-
-/// The shortest text of a number, 99 rather than 99.000000.
-std::string shown(double value) {
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
-}
 
 Tag tag_from_line(std::string_view line) {
   const std::vector<std::string_view> cells = split(line, ',');
@@ -113,39 +78,30 @@ std::vector<Fibre> composition_from_text(std::string_view text) {
   return fibres;
 }
 
+std::string composition_text(const std::vector<Fibre>& composition) {
+  std::ostringstream text;
+  for (const Fibre& fibre : composition)
+    text << (text.tellp() > 0 ? "; " : "") << fibre.name << " " << fibre.percent;
+  return text.str();
+}
+
 std::vector<Tag> read_tag_table(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!std::filesystem::is_regular_file(file) || !stream)
-    throw std::invalid_argument(file.string() +
-                                ": no such file, or not readable; expected a table " +
-                                "with the header " + in_quotes(kHeader));
   std::vector<Tag> tags;
-  bool header_seen = false;
-  std::string line;
-  for (int line_number = 1; std::getline(stream, line); ++line_number) {
-    const std::string_view content = trimmed(line);
-    if (content.empty() || content.front() == '#') continue;
-    try {
-      if (!header_seen) {
-        if (content != kHeader)
-          throw std::invalid_argument("header " + in_quotes(content) + "; expected " +
+  read_csv(
+      file, "the header " + in_quotes(kHeader),
+      [](std::string_view header) {
+        if (header != kHeader)
+          throw std::invalid_argument("header " + in_quotes(header) + "; expected " +
                                       in_quotes(kHeader));
-        header_seen = true;
-        continue;
-      }
-      Tag tag = tag_from_line(content);
-      for (const Tag& other : tags)
-        if (other.id == tag.id)
-          throw std::invalid_argument("id " + in_quotes(tag.id) + " occurs twice; ids must differ");
-      tags.push_back(std::move(tag));
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(file.string() + ":" + std::to_string(line_number) + ": " +
-                                  error.what());
-    }
-  }
-  if (tags.empty())
-    throw std::invalid_argument(file.string() + ": no fabric; expected the header " +
-                                in_quotes(kHeader) + " and a line for each fabric");
+      },
+      [&tags](std::string_view line) {
+        Tag tag = tag_from_line(line);
+        for (const Tag& other : tags)
+          if (other.id == tag.id)
+            throw std::invalid_argument("id " + in_quotes(tag.id) +
+                                        " occurs twice; ids must differ");
+        tags.push_back(std::move(tag));
+      });
   return tags;
 }
 

@@ -38,6 +38,9 @@ Structure structure_from_category(std::string_view category);
 /// 100 within rounding (half a percent a fibre, at least one: sources print 88 + 11).
 std::vector<Fibre> composition_from_text(std::string_view text);
 
+/// The other way round: "Linen 29; Polyester 68; Spandex / Elastane 3".
+std::string composition_text(const std::vector<Fibre>& composition);
+
 /// Reads a table of tags: comma-separated, without quotes; lines that start with '#' and empty
 /// lines are skipped; the first other line is the header
 /// id,category,subcategory,type,composition_percent,areal_density_gsm (density in g/m^2 here only).

@@ -15,21 +15,25 @@ namespace {
 // What is misspelt among the words of a command line that CLI11 refused; empty if nothing is.
 std::string misspelt(CLI::App& app, const std::vector<std::string>& words) {
   const auto is_option = [](const std::string& word) { return word.starts_with("-"); };
-  const auto command = std::find_if_not(words.begin(), words.end(), is_option);
   const auto suggestion = [](const std::string& what, const std::string& word,
                              const std::vector<std::string>& known) {
     const auto near = nearest(word, known);
     return "unknown " + what + " '" + word + "'" + (near ? "; did you mean '" + *near + "'?" : "");
   };
 
-  const CLI::App* active = &app;
-  if (command != words.end()) {
+  CLI::App* active = &app;
+  for (auto word = words.begin(); word != words.end(); ++word) {
+    const auto subcommands = active->get_subcommands(
+        [](CLI::App* of) { return !of->get_name().empty(); });  // groups of options have none
+    if (subcommands.empty() || is_option(*word)) continue;
     std::vector<std::string> commands;
-    for (const CLI::App* candidate : app.get_subcommands([](CLI::App*) { return true; })) {
+    CLI::App* next = nullptr;
+    for (CLI::App* candidate : subcommands) {
       commands.push_back(candidate->get_name());
-      if (candidate->get_name() == *command) active = candidate;
+      if (candidate->get_name() == *word) next = candidate;
     }
-    if (active == &app) return suggestion("command", *command, commands);
+    if (next == nullptr) return suggestion("command", *word, commands);
+    active = next;
   }
 
   std::vector<std::string> options;
@@ -44,6 +48,78 @@ std::string misspelt(CLI::App& app, const std::vector<std::string>& words) {
   return {};
 }
 
+/// The commands `dataset ...`; what is parsed goes into `command`.
+void add_dataset_commands(CLI::App& app, DatasetCommand& command) {
+  CLI::App* dataset = app.add_subcommand("dataset", "Work on tables of records");
+  dataset->require_subcommand(1);
+  const auto add = [&](const char* name, const char* help, DatasetAction action) {
+    CLI::App* sub = dataset->add_subcommand(name, help);
+    sub->callback([&command, action] { command.action = action; });
+    return sub;
+  };
+  const auto add_file = [&](CLI::App* sub) {
+    sub->add_option_function<std::string>(
+           "FILE", [&command](const std::string& file) { command.files = {file}; },
+           "Records in HDF5")
+        ->type_name("")
+        ->required();
+  };
+  CLI::App* merge = add("merge", "Put the shards of a set together", DatasetAction::merge);
+  merge->add_option("OUT", command.out, "New file")->type_name("")->required();
+  merge->add_option("SHARDS", command.files, "The results.h5 of all shards")
+      ->type_name("")
+      ->required();
+  merge->add_flag("--virtual", command.virtual_view, "Show the shards instead of copying them");
+
+  CLI::App* verify =
+      add("verify", "Check a table and compute some of it again", DatasetAction::verify);
+  add_file(verify);
+  verify->add_option("--sample", command.sample, "How many drapes to compute again")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+
+  CLI::App* migrate =
+      add("migrate", "Write a table of an older schema in the current one", DatasetAction::migrate);
+  add_file(migrate);
+  migrate->add_option("OUT", command.out, "New file")->type_name("")->required();
+
+  CLI::App* exported = dataset->add_subcommand("export", "Write records in another format");
+  add_file(exported);
+  CLI::Option_group* formats = exported->add_option_group("formats");
+  formats->require_option(1);
+  const auto add_format = [&](const char* name, const char* help, DatasetAction action) {
+    formats
+        ->add_option_function<std::string>(
+            name,
+            [&command, action](const std::string& out) {
+              command.action = action;
+              command.out = out;
+            },
+            help)
+        ->type_name("OUT");
+  };
+  add_format("--csv", "Tags, parameters and what is seen, a line each", DatasetAction::export_csv);
+  add_format("--obj", "The drape of a record", DatasetAction::export_obj);
+  add_format("--vtu", "The drape of a record, for ParaView", DatasetAction::export_vtu);
+  exported->add_option("--record", command.record, "Which record, from 0")
+      ->type_name("I")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+/// --shard K/N as two numbers; throws UsageError.
+std::pair<std::string, std::string> shard_numbers(const std::string& text) {
+  const size_t slash = text.find('/');
+  const auto is_number = [](const std::string& part) {
+    return !part.empty() && part.find_first_not_of("0123456789") == std::string::npos;
+  };
+  if (slash == std::string::npos || !is_number(text.substr(0, slash)) ||
+      !is_number(text.substr(slash + 1)))
+    throw UsageError("--shard " + text + ": expected K/N with K from 1 to N, such as 2/8");
+  return {text.substr(0, slash), text.substr(slash + 1)};
+}
+
 std::string list_text(const std::vector<std::string>& entries) {
   std::string text = "[";
   for (const std::string& entry : entries) text += (text.size() > 1 ? ", " : "") + entry;
@@ -53,7 +129,8 @@ std::string list_text(const std::vector<std::string>& entries) {
 }  // namespace
 
 std::optional<CommandLine> parse_command_line(int argc, const char* const* argv) {
-  std::string file, out, threads, query, mm_per_pixel, density, warp_angle, dataset;
+  CommandLine line;
+  std::string file, out, threads, query, mm_per_pixel, density, warp_angle, dataset, shard;
   std::vector<std::string> sets, records, photos;
 
   CLI::App app("Drape: fabric parameters in, drapes out; silhouettes in, fabric parameters out.",
@@ -78,6 +155,8 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   CLI::App* run = app.add_subcommand("run", "Run the experiment of a config");
   run->add_option("CONFIG", file, "Config in TOML")->type_name("")->required();
   with_run(run);
+  run->add_option("--shard", shard, "Drape the K-th of N parts of a dataset alone")
+      ->type_name("K/N");
 
   CLI::App* validate = app.add_subcommand("validate", "Check a config without running it");
   validate->add_option("CONFIG", file, "Config in TOML")->type_name("")->required();
@@ -119,6 +198,17 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
       ->needs(dataset_option);
   with_run(estimate);
 
+  add_dataset_commands(app, line.dataset);
+
+  CLI::App* tag = app.add_subcommand("tag", "Tell what a fabric's tag says of its parameters");
+  tag->add_option("--type", line.tag.type, "As Jersey or Denim")->type_name("NAME")->required();
+  tag->add_option("--composition", line.tag.composition, "As \"Cotton 59, Modal 40\"")
+      ->type_name("FIBRES")
+      ->required();
+  tag->add_option("--density", line.tag.density, "Mass per area, kg/m^2")
+      ->type_name("D")
+      ->required();
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version
@@ -129,12 +219,13 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
     throw UsageError((wrong.empty() ? error.what() : wrong) + "\nMore with --help.");
   }
 
-  CommandLine line;
   line.command = *run        ? Command::run
                  : *validate ? Command::validate
                  : *explain  ? Command::explain
                  : *info     ? Command::info
-                             : Command::estimate;
+                 : *estimate ? Command::estimate
+                 : *tag      ? Command::tag
+                             : Command::dataset;
   if (!file.empty()) line.file = file;
   line.out = out;
   line.query = query;
@@ -159,6 +250,11 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   assign("estimate.dataset", dataset, "--dataset");
   if (!records.empty()) assign("estimate.records", list_text(records), "--records");
   assign("experiment.threads", threads, "--threads");
+  if (!shard.empty()) {
+    const auto [number, count] = shard_numbers(shard);
+    line.assignments.push_back({"dataset.shard", number, "--shard " + shard});
+    line.assignments.push_back({"dataset.shards", count, "--shard " + shard});
+  }
   for (const std::string& text : sets) line.assignments.push_back(assignment_from_set(text));
   return line;
 }

@@ -6,10 +6,17 @@
 #include <vector>
 
 #include "experiments/config.h"
+#include "experiments/dataset_commands.h"
 
 namespace drape {
 
-enum class Command { run, validate, explain, info, estimate };
+enum class Command { run, validate, explain, info, estimate, dataset, tag };
+
+/// What `tag` is asked about.
+struct TagQuery {
+  std::string type, composition;
+  double density = 0;  ///< [kg/m^2]
+};
 
 struct CommandLine {
   Command command;
@@ -17,6 +24,8 @@ struct CommandLine {
   std::vector<Assignment> assignments;        ///< of --set, --threads, --photo, ...
   std::filesystem::path out;
   std::string query;  ///< of `explain`
+  DatasetCommand dataset;
+  TagQuery tag;
 };
 
 /// Thrown for wrong use; what() says what is wrong, with a suggestion if a word is misspelt.

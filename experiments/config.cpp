@@ -319,6 +319,10 @@ void check_together(const Loaded& loaded, const std::string& name) {
              "photographs.densities must hold one density for each of "
              "photographs.weighed");
   }
+  if (settings.dataset.shard > settings.dataset.shards)
+    refuse("dataset.shard", "dataset.shard must be 1 to dataset.shards");
+  if (!settings.dataset.table.empty() && !settings.dataset.parameters.empty())
+    refuse("dataset.parameters", "dataset.table and dataset.parameters exclude each other");
   if (kind == Kind::quickstart && settings.quickstart.table.empty())
     refuse("experiment.kind", "the quickstart needs quickstart.table");
   if (settings.start.protocol == StartProtocol::guided &&

@@ -3,14 +3,32 @@
 namespace drape {
 
 void add_keys_of_kinds(ConfigKeyList& add) {
-  add("dataset", "fabrics", "", at_least(1), "Number of random fabrics; a table overrides it.",
+  add("dataset", "fabrics", "", at_least(1),
+      "Number of fabrics, of all shards; a table overrides it. 5145 is the whole set.",
       DRAPE_MEMBER(dataset.fabrics));
+  add("dataset", "tags", "", kAny,
+      "Fabrics without a table: \"model\" draws tags in the numbers of Tables 1 and 2 of Ju et al. "
+      "and parameters that such tags suggest; \"random\" fabrics are out of a wide box.",
+      DRAPE_MEMBER(dataset.tags));
   add("dataset", "table", "", kAny,
-      "CSV of tags (id,category,subcategory,type,composition_percent,areal_density_gsm); \"\" for "
-      "random fabrics.",
+      "CSV of tags (id,category,subcategory,type,composition_percent,areal_density_gsm) that get "
+      "their first parameters; \"\" for none.",
       DRAPE_MEMBER(dataset.table));
+  add("dataset", "parameters", "", kAny,
+      "CSV of tags and parameters in the units of the garment software (g, mm, s): columns id, "
+      "density, fSuK, fSvK, fHK, fBuK, fBvK, fBhK and more; \"\" for none.",
+      DRAPE_MEMBER(dataset.parameters));
   add("dataset", "rows", "", kNotNegative, "How many rows of the table; 0 for all.",
       DRAPE_MEMBER(dataset.rows));
+  add("dataset", "shard", "", at_least(1),
+      "Which of the shards this run drapes, from 1; --shard K/N sets both.",
+      DRAPE_MEMBER(dataset.shard));
+  add("dataset", "shards", "", at_least(1),
+      "How many parts the set is cut into; drape dataset merge puts them together.",
+      DRAPE_MEMBER(dataset.shards));
+  add("dataset", "only", "", kNotNegative,
+      "Indices of the fabrics to drape (again), e.g. of a failure; [] for all of the shard.",
+      DRAPE_MEMBER(dataset.only));
   add("dataset", "pixels", "", {16, 4096, true}, "Rows and columns of the coverage images.",
       DRAPE_MEMBER(dataset.pixels));
   add("dataset", "image_width", "m", kPositive, "Width and height of the coverage images.",

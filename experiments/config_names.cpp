@@ -26,6 +26,10 @@ std::vector<std::string> names_of<ContactMode>() {
           std::string(name(ContactMode::support))};
 }
 template <>
+std::vector<std::string> names_of<DatasetTags>() {
+  return {"model", "random"};
+}
+template <>
 std::vector<std::string> names_of<FitMethod>() {
   return {"levenberg_marquardt", "bfgs"};
 }

@@ -1,8 +1,8 @@
 // The two distributions of fabrics that a solver must cope with.
 //
-// measured: (ln density, ln B_warp, ln B_weft, ln B_bias) are jointly normal, fitted to the 618
-//   fabrics of Feng et al. 2022 (doi 10.1145/3550454.3555464) and truncated to their range.
-//   Stretch and shear span knits to coated fabrics, softening is that of their bending tests.
+// measured: density, rigidity and softening of the 618 fabrics of Feng et al. 2022
+//   (measured_bending.h). Stretch and shear span knits to coated fabrics, softening is that of
+//   their bending tests.
 // wide: a log-uniform box up to what is still a cloth: density .02 to 1 kg/m^2 (chiffon to rug),
 //   stretch 5 to 1e5 N/m and shear 1 to 1e4 N/m (loose knit to laminated sailcloth; weft and warp
 //   drawn apart), B 1e-8 to 1e-2 N m (gauze to thick leather: 20 times below and above what was

@@ -38,7 +38,7 @@ RunOutcome run_quickstart(const Settings& settings, OutputFolder& folder) {
   Settings dataset = settings;
   dataset.dataset.table = quickstart.table;
   dataset.dataset.rows = quickstart.fabrics;
-  outcome.summary["dataset"] = run_part("dataset", run_dataset, Kind::dataset, dataset, folder);
+  outcome.summary["dataset"] = run_part("dataset", drape_dataset, Kind::dataset, dataset, folder);
   if (interrupted()) return outcome;
 
   Settings estimate = settings;

@@ -21,6 +21,8 @@ struct RunOutcome {
 
 RunOutcome run_drape(const Settings& settings, OutputFolder& folder);
 RunOutcome run_dataset(const Settings& settings, OutputFolder& folder);
+/// The same without its picture.
+RunOutcome drape_dataset(const Settings& settings, OutputFolder& folder);
 RunOutcome run_estimate(const Settings& settings, OutputFolder& folder);
 RunOutcome run_photograph(const Settings& settings, OutputFolder& folder);
 RunOutcome run_gradient_check(const Settings& settings, OutputFolder& folder);

@@ -10,14 +10,16 @@
 
 #include "core/records.h"
 #include "estimation/photograph.h"
-#include "estimation/tag.h"
 #include "experiments/command_line.h"
 #include "experiments/config_keys.h"
 #include "experiments/config_text.h"
+#include "experiments/dataset_fabrics.h"
 #include "experiments/interrupt.h"
+#include "experiments/isolated.h"
 #include "experiments/kinds.h"
 #include "experiments/start_outline.h"
 #include "experiments/summary.h"
+#include "experiments/tag_report.h"
 
 namespace drape {
 namespace {
@@ -67,13 +69,17 @@ void print_content(const OutputFolder& folder) {
 void check_inputs(const Settings& settings) {
   const Kind kind = settings.experiment.kind;
   if (settings.start.protocol == StartProtocol::guided) start_profile(settings);
-  if (kind == Kind::photograph)
+  if (kind == Kind::photograph) {
     for (const std::filesystem::path& file : settings.photograph.files)
       read_photograph(file, 1e-3 * settings.photograph.mm_per_pixel, settings.scene);
-  else if (kind == Kind::estimate && !settings.estimate.dataset.empty())
-    read_header(settings.estimate.dataset);
-  else if (kind == Kind::dataset && !settings.dataset.table.empty())
-    read_tag_table(settings.dataset.table);
+  } else if (kind == Kind::estimate && !settings.estimate.dataset.empty()) {
+    const std::filesystem::path& file = settings.estimate.dataset;
+    probe(file.string(), [&file] { visit_records(file, [](size_t, const Record&) {}); });
+    read_header(file);
+  } else if (kind == Kind::dataset &&
+             !(settings.dataset.table.empty() && settings.dataset.parameters.empty())) {
+    DatasetFabrics(settings).chosen();
+  }
 }
 
 int run(const Settings& settings, const std::filesystem::path& out) {
@@ -124,7 +130,15 @@ int execute(const CommandLine& line) {
       std::cout << explain(line.query);
       return kDone;
     case Command::info:
-      std::cout << describe_records(*line.file);
+      return isolated(line.file->string(), [&] {
+        std::cout << describe_records(*line.file);
+        return kDone;
+      });
+    case Command::dataset:
+      return run_dataset_command(line.dataset);
+    case Command::tag:
+      std::cout << tag_report(line.tag.type, line.tag.composition, line.tag.density,
+                              BendingThreshold::radius);
       return kDone;
   }
   throw std::logic_error("a command without a function");

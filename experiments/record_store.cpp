@@ -35,19 +35,28 @@ void RecordStore::save(int index, const Record& record) const {
 }
 
 Record RecordStore::load(int index) const {
-  if (std::filesystem::exists(table_)) return read_records(table_).at(static_cast<size_t>(index));
+  if (std::filesystem::exists(table_))
+    return read_records(table_, static_cast<size_t>(index), 1).at(0);
   return read_records(file(index)).at(0);
 }
 
+void RecordStore::visit(const std::function<void(const Record&)>& visit) const {
+  if (std::filesystem::exists(table_))
+    visit_records(table_, [&](size_t, const Record& record) { visit(record); });
+  else
+    for (int i = 0; i < count_; ++i) visit(load(i));
+}
+
 std::vector<Record> RecordStore::load_all() const {
-  if (std::filesystem::exists(table_)) return read_records(table_);
   std::vector<Record> records;
-  for (int i = 0; i < count_; ++i) records.push_back(load(i));
+  visit([&](const Record& record) { records.push_back(record); });
   return records;
 }
 
 void RecordStore::consolidate() const {
-  if (!std::filesystem::exists(table_)) write_records(table_, header_, load_all());
+  if (!std::filesystem::exists(table_))
+    write_records(table_, header_, static_cast<size_t>(count_),
+                  [&](size_t index) { return load(static_cast<int>(index)); });
   std::filesystem::remove_all(records_);
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "core/records.h"
@@ -26,6 +27,9 @@ class RecordStore {
   void save(int index, const Record& record) const;
   /// Throws RecordError if it is not there.
   Record load(int index) const;
+  /// Calls visit(record) for all in order, some in memory at a time. Throws RecordError if one is
+  /// missing.
+  void visit(const std::function<void(const Record&)>& visit) const;
   /// All records in order. Throws RecordError if one is missing.
   std::vector<Record> load_all() const;
   /// Writes results.h5 and removes the files it replaces. Throws RecordError if a record is

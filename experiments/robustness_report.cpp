@@ -8,6 +8,7 @@
 
 #include "core/equilibrium.h"
 #include "experiments/json_store.h"
+#include "experiments/replay.h"
 #include "experiments/statistics.h"
 
 namespace drape {
@@ -33,17 +34,10 @@ Json finite_percentiles(const std::vector<double>& values) {
   return result;
 }
 
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
-
 std::string replay(const RobustnessSolve& solve, const std::filesystem::path& run) {
   const std::string index = std::to_string(solve.index), size = std::to_string(solve.size);
-  return "drape run " + quoted((run / "config.toml").string()) + " --out " +
-         quoted((run / ("replay_" + size + "_" + index)).string()) + " --set 'robustness.only=[" +
-         index + "]' --set 'robustness.vertices=[" + size + "]'";
+  return replay_command(run, "replay_" + size + "_" + index,
+                        {"robustness.only=[" + index + "]", "robustness.vertices=[" + size + "]"});
 }
 
 std::string three(const Json& of, const char* format) {

@@ -135,10 +135,20 @@ struct EstimateSettings {
   std::vector<double> guide{1, 0.1, 0.01};
 };
 
+/// What fabrics a dataset without a table has.
+enum class DatasetTags {
+  model,   ///< tags in the numbers of Tables 1 and 2, and parameters as they suggest
+  random,  ///< no tags, parameters out of a wide box
+};
+
 struct DatasetSettings {
   int fabrics = 100;
-  std::filesystem::path table;  ///< empty: random fabrics
-  int rows = 0;                 ///< of the table; 0: all
+  DatasetTags tags = DatasetTags::model;
+  std::filesystem::path table;       ///< of tags; empty: none
+  std::filesystem::path parameters;  ///< table of tags and parameters; empty: none
+  int rows = 0;                      ///< of the table; 0: all
+  int shard = 1, shards = 1;         ///< which part of how many, from 1
+  std::vector<int> only;             ///< indices of fabrics; empty: all of the shard
   int pixels = 256;
   double image_width = 0.35584;  ///< [m]
 };

@@ -18,6 +18,7 @@ sys.path.insert(0, str(FIGURES))
 
 import accuracy  # noqa: E402
 import branches  # noqa: E402
+import dataset  # noqa: E402
 import drape_sheet  # noqa: E402
 import ensemble  # noqa: E402
 import estimate_overlay  # noqa: E402
@@ -294,9 +295,18 @@ class Figures(unittest.TestCase):
         self.assertEqual(ended.returncode, 2)
         self.assertIn("branches.json: cannot be read", ended.stderr)
 
+    def test_picture_of_a_dataset_is_readable(self):
+        for count, status, said in ((15, "no descent", "14 drapes"), (1, "converged", "1 drapes"),
+                                    (1, "no descent", "0 drapes")):
+            write(self.file, count, status=status)
+            page = dataset.picture(dataset.read(self.file))
+            self.check_layout(page)
+            self.assertIn(said, self.words(page))
+
     def test_scripts_write_both_files(self):
         write(self.file, 1)
-        for script, stem in (("drape_sheet.py", "sheet"), ("estimate_overlay.py", "overlay")):
+        for script, stem in (("drape_sheet.py", "sheet"), ("estimate_overlay.py", "overlay"),
+                             ("dataset.py", "dataset")):
             done = self.run_script(script, self.file, "--out", self.folder / "new" / stem)
             self.assertEqual(done.returncode, 0, done.stderr)
             files = [self.folder / "new" / f"{stem}.{suffix}" for suffix in ("png", "pdf")]
@@ -325,7 +335,7 @@ class Figures(unittest.TestCase):
 
     def test_unreadable_input_is_one_line_and_exit_2(self):
         self.file.write_text("no HDF5")
-        for script in ("drape_sheet.py", "estimate_overlay.py"):
+        for script in ("drape_sheet.py", "estimate_overlay.py", "dataset.py"):
             for file in (self.file, self.folder / "missing.h5"):
                 done = self.run_script(script, file, "--out", self.folder / "sheet")
                 self.assertEqual(done.returncode, 2)

@@ -1,9 +1,7 @@
 // The program as a user meets it: exit codes, messages, and what it leaves on the disk.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
@@ -11,16 +9,10 @@
 #include <vector>
 
 #include "core/hdf5_file.h"
-#include "tests/experiments/scratch_folder.h"
+#include "tests/experiments/program_fixture.h"
 
 namespace drape {
 namespace {
-
-struct Ended {
-  int exit_code;
-  std::string text;  // stdout and stderr
-  bool says(const std::string& part) const { return text.find(part) != std::string::npos; }
-};
 
 using GreyOf = bool (*)(int column, int row);
 
@@ -37,18 +29,8 @@ std::string drawn(GreyOf white) {
   return image;
 }
 
-class Program : public testing::Test {
+class Program : public ProgramInFolder {
  protected:
-  Ended shell(const std::string& command) const {
-    FILE* pipe = popen(("cd " + scratch.path().string() + " && " + command + " 2>&1").c_str(), "r");
-    std::string text;
-    char buffer[4096];
-    while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
-    const int status = pclose(pipe);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
-  }
-  Ended drape(const std::string& arguments) const { return shell(DRAPE_PROGRAM " " + arguments); }
-
   // Exit code 2, a message with this text, and no output folder.
   void expect_refused(const std::string& arguments, const std::string& message) const {
     const Ended ended = drape(arguments);
@@ -69,14 +51,12 @@ class Program : public testing::Test {
                   "[experiment]\nkind = 'drape'\n[mesh]\nvertices = 250\n"
                   "[fabric]\nk_bu = 2e-5\nk_bv = 2e-5\nk_bh = 2e-5\n");
   }
-
-  const ScratchFolder scratch;
 };
 
 TEST_F(Program, HelpAndVersion) {
   EXPECT_EQ(drape("--help").exit_code, 0);
   EXPECT_TRUE(drape("--version").says("drape "));
-  for (const char* command : {"run", "validate", "explain", "info", "estimate"}) {
+  for (const char* command : {"run", "validate", "explain", "info", "estimate", "dataset", "tag"}) {
     const Ended ended = drape(std::string(command) + " --help");
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_TRUE(ended.says(std::string("drape ") + command)) << ended.text;
@@ -302,7 +282,7 @@ TEST_F(Program, AFailedFabricIsReplayedByTheCommandThatTheSummaryNames) {
 
 TEST_F(Program, InterruptedIsExitCode130AndResumable) {
   const std::string command = DRAPE_PROGRAM
-      " run a.toml --out out --set experiment.kind=dataset --set dataset.fabrics=100000";
+      " run a.toml --out out --set experiment.kind=dataset --set dataset.fabrics=3000";
   for (int session = 0; session < 2; ++session) {
     const Ended ended = shell("timeout --preserve-status --signal=INT 2 " + command);
     EXPECT_EQ(ended.exit_code, 130) << ended.text;

@@ -1,0 +1,69 @@
+#include "estimation/csv_table.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+namespace drape {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (size_t end = 0; end != std::string_view::npos;) {
+    end = text.find(separator);
+    parts.push_back(trimmed(text.substr(0, end)));
+    if (end != std::string_view::npos) text.remove_prefix(end + 1);
+  }
+  return parts;
+}
+
+std::optional<double> number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+std::string shown(double value) {
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+void read_csv(const std::filesystem::path& file, const std::string& expected,
+              const std::function<void(std::string_view line)>& header,
+              const std::function<void(std::string_view line)>& row) {
+  std::ifstream stream(file);
+  if (!std::filesystem::is_regular_file(file) || !stream)
+    throw std::invalid_argument(file.string() + ": no such file, or not readable; expected a " +
+                                "table with " + expected);
+  int rows = -1;  // the header is the first
+  std::string line;
+  for (int line_number = 1; std::getline(stream, line); ++line_number) {
+    const std::string_view content = trimmed(line);
+    if (content.empty() || content.front() == '#') continue;
+    try {
+      (rows < 0 ? header : row)(content);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(file.string() + ":" + std::to_string(line_number) + ": " +
+                                  error.what());
+    }
+    ++rows;
+  }
+  if (rows <= 0)
+    throw std::invalid_argument(file.string() + ": no fabric; expected " + expected +
+                                " and a line for each fabric");
+}
+
+}  // namespace drape
