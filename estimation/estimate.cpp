@@ -58,8 +58,9 @@ class Estimation {
     return released(std::nullopt);
   }
 
-  /// Fits from one guided start after the other, until one explains the outlines. Each takes up the
-  /// unknowns that explained them best under the first guide.
+  /// Fits from one guided start after the other, until a free one explains the outlines, be it that
+  /// its branch ends before its minimum. Each takes up the unknowns that explained them best under
+  /// the first guide.
   Attempt search() {
     Attempt best;
     VecX u = fit_.state().u;
@@ -69,7 +70,7 @@ class Estimation {
       if (!fit_.lay_along(start)) continue;
       Attempt now = guided_attempt(guided_miss, u);
       if (is_better(now.outcome, now.miss, best.outcome, best.miss)) best = std::move(now);
-      if (best.outcome == EstimateOutcome::succeeded) break;
+      if (best.outcome <= EstimateOutcome::not_converged && explains(best.miss)) break;
     }
     return best;
   }

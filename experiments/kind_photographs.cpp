@@ -80,9 +80,7 @@ std::string fit_name(const Capture& capture, PhotographModel model) {
 }
 
 bool is_fit(const Json& item) { return item.contains("parameters"); }
-bool is_free(const Json& item) {
-  return is_fit(item) && item["free"] && item["certified"] && item["outcome"] == "succeeded";
-}
+bool is_free(const Json& item) { return is_fit(item) && item["free"] && item["certified"]; }
 bool has_nodes_within_one(const Json& item) {
   return std::abs(item["node_count"].get<int>() - item["seen"]["node_count"].get<int>()) <= 1;
 }
@@ -101,15 +99,16 @@ double standard_deviation(const std::vector<double>& values) {
 /// How well a set of fits or predictions succeeded.
 Json account(const std::vector<Json>& items) {
   std::vector<double> rms, iou, error, cpu;
-  int free = 0, free_with_nodes = 0;
+  int free = 0, free_with_nodes = 0, succeeded = 0;
   Json failures = Json::object();
   for (const Json& item : items) {
     if (is_fit(item)) cpu.push_back(number(item["cpu_seconds"]));
-    if (!is_free(item)) {
-      const std::string reason = item["outcome"];
-      failures[reason] = failures.value(reason, 0) + 1;
-      continue;
-    }
+    const std::string outcome = item["outcome"];
+    if (outcome == "succeeded")
+      ++succeeded;
+    else
+      failures[outcome] = failures.value(outcome, 0) + 1;
+    if (!is_free(item)) continue;
     ++free;
     free_with_nodes += has_nodes_within_one(item);
     rms.push_back(number(item["outline_rms_mm"]));
@@ -119,6 +118,7 @@ Json account(const std::vector<Json>& items) {
   return {{"pictures", items.size()},
           {"free_and_certified", free},
           {"within_one_node", free_with_nodes},
+          {"succeeded", succeeded},
           {"failures", failures},
           {"outline_rms_mm_median", median(rms)},
           {"iou_median", median(iou)},
