@@ -44,6 +44,10 @@ RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
       return run_validation(settings, folder);
     case Kind::accuracy:
       return run_accuracy(settings, folder);
+    case Kind::work_precision:
+      return run_work_precision(settings, folder);
+    case Kind::stability:
+      return run_stability(settings, folder);
     case Kind::branches:
       return run_branches(settings, folder);
   }

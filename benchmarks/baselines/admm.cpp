@@ -164,7 +164,8 @@ class Splitting {
   std::vector<double> direction_weight_, wing_weight_;  // omega
   std::vector<Vec3> stretched_, direction_dual_;        // z and u
   std::vector<Edges> edges_, wing_dual_;                // z and u
-  Eigen::SimplicialLLT<SparseMatrix> factor_;
+  // in the order of the unknowns, which is fill-reducing
+  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> factor_;
 };
 
 }  // namespace

@@ -54,7 +54,7 @@ void Course::record(const VecX& x) {
               x.cwiseAbs().maxCoeff() > kLargest * size_;
   if (!diverged_) {
     run_.smallest_residual = std::min(run_.smallest_residual, residual_);
-    run_.trace.push_back({now, residual_, energy, iterations_, x});
+    run_.trace.push_back({iterations_ == 0 ? 0 : now, residual_, energy, iterations_, x});
   }
   paused_ += spent() - now;
 }

@@ -30,7 +30,7 @@ std::string_view name(Outcome outcome);
 
 /// A state on the way.
 struct Snapshot {
-  double cpu_seconds, residual, energy;
+  double cpu_seconds, residual, energy;  ///< 0 s at the start
   int iterations;
   VecX x;  ///< 3n [m]
 };
