@@ -2,6 +2,8 @@
 """Atlas of where methods converge: a row a method, a map a mesh size, coloured by outcome.
 
     /usr/bin/python3 stability.py ATLAS.json --out DIR/atlas    writes .png and .pdf"""
+from math import log10
+
 from matplotlib.patches import Rectangle
 
 import study
@@ -18,7 +20,7 @@ OUTCOMES = {  # outcome -> colour, words
 CASES = {"vanishing_bending": "no bending", "ratio_1e8": "ratio 1e8", "needles": "needles",
          "threshold_softening": "softening", "threshold_stiffening": "stiffening",
          "secant": "secant law", "near_snap": "near a snap"}
-LABEL, TOP, ROW, GAP, CELL = 38, 36, 12.5, 5, 4.2
+LABEL, TOP, ROW, GAP, CELL = 42, 35, 13, 5, 4.2
 
 
 def page(atlas):
@@ -40,23 +42,23 @@ def page(atlas):
         groups.append(("hard cases", "", "", [("case", name) for name in cases], len(cases)))
     width = LABEL + sum(GAP + CELL * group[4] for group in groups) + 6
     methods = list(atlas["methods"])
-    figure = style.Page(max(width, 150), TOP + ROW * len(methods) + 44)
+    figure = style.Page(max(width, 180), TOP + ROW * len(methods) + 44)
     head(figure, atlas, ratios, densities, steps)
-    colour = {key(c): OUTCOMES[c["outcome"]][0] for c in cells}
+    look = {key(c): (OUTCOMES[c["outcome"]][0], exponent(c)) for c in cells}
     for row, method in enumerate(methods):
         top = TOP + ROW * row
         figure.text(6, top + ROW / 2 - 1, atlas["methods"][method]["label"], va="center")
         left = LABEL
         for title, across, up, places, columns in groups:
-            draw(figure, left, top, columns, [colour.get((method, *place)) for place in places])
+            draw(figure, left, top, columns, [look.get((method, *place)) for place in places])
             if row == 0:
                 figure.text(left, top - 5.5, title)
             if row == len(methods) - 1 and across:
-                figure.text(left, top + ROW - 0.5, f"{across} →\n{up} ↑")
+                figure.text(left, top + ROW - 1, f"{across} →\n{up} ↑")
             left += GAP + CELL * columns
     below = TOP + ROW * len(methods)
     for i, name in enumerate(cases):
-        figure.text(width - 6 - CELL * (len(cases) - i) + CELL / 2, below - 0.5, CASES[name],
+        figure.text(width - 6 - GAP - CELL * (len(cases) - i - 0.5), below - 0.5, CASES[name],
                     rotation=90, ha="center")
     legend(figure, below + 24)
     return figure
@@ -70,6 +72,13 @@ def key(cell):
             cell["membrane_to_bending"], step or cell["areal_density"])
 
 
+def exponent(cell):
+    """Decimal exponent of the smallest residual where the method was stopped, or stopped itself."""
+    if cell["outcome"] not in ("stalled", "out_of_budget"):
+        return ""
+    return f"{round(log10(cell['smallest_residual']))}".replace("-", "−")
+
+
 def head(figure, atlas, ratios, densities, steps):
     def listed(values):
         return ", ".join(f"{value:g}" for value in values)
@@ -78,27 +87,31 @@ def head(figure, atlas, ratios, densities, steps):
              f"{atlas['cpu_seconds']:g} s of CPU at 1000 vertices, in proportion to the mesh.\n"
              f"Across: membrane over bending stiffness {listed(ratios)}. "
              f"Up: areal density {listed(densities)} kg/m²")
-    figure.text(6, 10.5, words + (f",\nor time step {listed(steps)} s at the middle density."
-                                  if steps else "."))
+    figure.text(6, 10.5, words + (f",\nor time step {listed(steps)} s at the middle density. "
+                                  if steps else ".\n") +
+                "Numbers: decimal exponent of the smallest residual.")
 
 
-def draw(figure, left, top, columns, colours):
-    """`colours` row by row from below; cells without one are left out."""
-    if not any(colours):
+def draw(figure, left, top, columns, looks):
+    """`looks` (colour and number) row by row from below; cells without one are left out."""
+    if not any(looks):
         return
-    rows = len(colours) // columns
+    rows = len(looks) // columns
     axes = figure.axes(left, top, CELL * columns, ROW - 2)
     axes.set(xlim=(0, columns), ylim=(0, rows))
     axes.axis("off")
-    for i, colour in enumerate(colours):
-        if colour:
-            axes.add_patch(Rectangle((i % columns, i // columns), 1, 1, facecolor=colour,
-                                     edgecolor="white", linewidth=0.5))
+    for i, look in enumerate(looks):
+        if look is None:
+            continue
+        column, row = i % columns, i // columns
+        axes.add_patch(Rectangle((column, row), 1, 1, facecolor=look[0], edgecolor="white",
+                                 linewidth=0.5))
+        axes.text(column + 0.5, row + 0.47, look[1], ha="center", va="center", fontsize=6)
 
 
 def legend(figure, top):
     for i, (colour, words) in enumerate(OUTCOMES.values()):
-        left, height = 6 + 50 * (i % 3), top + 5 * (i // 3)
+        left, height = 6 + 58 * (i % 3), top + 5 * (i // 3)
         axes = figure.axes(left, height, 4, 3.4)
         axes.axis("off")
         axes.add_patch(Rectangle((0, 0), 1, 1, facecolor=colour))

@@ -171,7 +171,7 @@ def stability_atlas():
     places += [(case, 250, 0, 0, 0) for case in stability.CASES]
     cells = [dict(method=method, case=case, vertices=vertices, membrane_to_bending=ratio,
                   areal_density=density, time_step=step,
-                  outcome=outcomes[(i + j) % len(outcomes)])
+                  outcome=outcomes[(i + j) % len(outcomes)], smallest_residual=2e-6)
              for i, method in enumerate(METHODS)
              for j, (case, vertices, ratio, density, step) in enumerate(places)
              if not step or method in ("xpbd", "explicit_dynamics")]
