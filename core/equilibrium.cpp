@@ -100,6 +100,10 @@ class Minimisation {
       }
       if (line_search(direction())) {
         ++use_;
+        if (options_.go_on && !options_.go_on(result_.x, gradient_)) {
+          result_.status = EquilibriumStatus::iteration_limit;
+          return at_rounding_floor();
+        }
         if (noisy_steps_ <= kNoisePatience) continue;
         take_back_to_best();
       }

@@ -9,6 +9,7 @@
 // solver leaves along a direction of negative curvature.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -23,13 +24,16 @@ struct EquilibriumOptions {
   int max_iterations = 20000;  ///< over all saddles
   double largest_move = 0.02;  ///< of a vertex in one iteration [m]
   bool certify = true;         ///< factor the true Hessian at the end and leave saddles
+  /// Called after every iteration with the state and its gradient (3n); false ends the solve like
+  /// max_iterations does. May be empty.
+  std::function<bool(const VecX& x, const VecX& gradient)> go_on = nullptr;
 };
 
 enum class EquilibriumStatus {
   converged,        ///< residual within tolerance (or at the rounding floor), certified minimum
   saddle,           ///< residual within tolerance, but no way down was found from a saddle
   stagnated,        ///< no further decrease, residual above tolerance and rounding floor
-  iteration_limit,  ///< max_iterations reached
+  iteration_limit,  ///< max_iterations reached, or stopped by go_on
   non_finite,       ///< the energy or its derivatives are not finite at the start
 };
 std::string_view name(EquilibriumStatus status);

@@ -351,7 +351,8 @@ void check_together(const Loaded& loaded, const std::string& name) {
       refuse(key, std::string(key) + " must be two values, from less than to");
   const bool only_forward = kind == Kind::drape || kind == Kind::dataset ||
                             kind == Kind::robustness || kind == Kind::validation ||
-                            kind == Kind::accuracy;
+                            kind == Kind::accuracy || kind == Kind::work_precision ||
+                            kind == Kind::stability;
   if (settings.reading.law == BendingLaw::secant && !only_forward)
     refuse("fabric.bending_law",
            "the secant law has no derivative; this kind of experiment needs \"tangent\"");

@@ -221,6 +221,38 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("accuracy", "fabrics", "", {1, 9, true}, "How many of the study's nine fabrics.",
       DRAPE_MEMBER(accuracy.fabrics));
 
+  add("work_precision", "vertices", "", kVertices, "Mesh sizes.",
+      DRAPE_MEMBER(work_precision.vertices));
+  add("work_precision", "seeds", "", at_least(1), "Meshes of every size.",
+      DRAPE_MEMBER(work_precision.seeds));
+  add("work_precision", "fabrics", "", {1, 9, true},
+      "How many of the study's nine fabrics; the first three are a stiff, a medium and a soft one.",
+      DRAPE_MEMBER(work_precision.fabrics));
+  add("work_precision", "methods", "", kAny, "The methods to compare; [] for all.",
+      DRAPE_MEMBER(work_precision.methods));
+  add("work_precision", "cpu_seconds", "s", kPositive,
+      "CPU time of each run on 1000 vertices; on other meshes in proportion to their vertices.",
+      DRAPE_MEMBER(work_precision.cpu_seconds));
+
+  add("stability", "vertices", "", kVertices, "Mesh sizes.", DRAPE_MEMBER(stability.vertices));
+  add("stability", "membrane_to_bending", "", kPositive,
+      "Stretch stiffness times the overhang's square over the flexural rigidity; the membrane "
+      "changes, the bending stays.",
+      DRAPE_MEMBER(stability.membrane_to_bending));
+  add("stability", "areal_density", "kg/m^2", kPositive, "Masses per area.",
+      DRAPE_MEMBER(stability.areal_density));
+  add("stability", "time_steps", "s", kPositive,
+      "Time steps of the methods that have one, besides the step that each chooses itself.",
+      DRAPE_MEMBER(stability.time_steps));
+  add("stability", "methods", "", kAny, "The methods to try; [] for all.",
+      DRAPE_MEMBER(stability.methods));
+  add("stability", "cpu_seconds", "s", kPositive,
+      "CPU time of each run on 1000 vertices; on other meshes in proportion to their vertices.",
+      DRAPE_MEMBER(stability.cpu_seconds));
+  add("stability", "only", "", kNotNegative,
+      "Indices of the cells to run (again), e.g. of a failure; [] for all.",
+      DRAPE_MEMBER(stability.only));
+
   add("branches", "softest", "", kPositive,
       "Factor on the fabric's bending stiffnesses where the sweeps start and end.",
       DRAPE_MEMBER(branches.softest));

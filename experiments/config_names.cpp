@@ -1,12 +1,14 @@
 #include "experiments/config_names.h"
 
+#include "benchmarks/baselines/methods.h"
+
 namespace drape {
 
 template <>
 std::vector<std::string> names_of<Kind>() {
-  return {"drape",          "dataset",    "estimate",    "photograph",
-          "gradient_check", "robustness", "quickstart",  "branches",
-          "validation",     "accuracy",   "photographs", "identifiability"};
+  return {"drape",       "dataset",         "estimate",       "photograph", "gradient_check",
+          "robustness",  "quickstart",      "branches",       "validation", "accuracy",
+          "photographs", "identifiability", "work_precision", "stability"};
 }
 template <>
 std::vector<std::string> names_of<MeshKind>() {
@@ -64,6 +66,12 @@ std::vector<std::string> names_of<Structure>() {
 template <>
 std::vector<std::string> names_of<CheckedLoss>() {
   return {"profile", "coverage", "drape_coefficient"};
+}
+template <>
+std::vector<std::string> names_of<ComparedMethod>() {
+  std::vector<std::string> names;
+  for (const baselines::Method& m : baselines::methods()) names.emplace_back(m.name);
+  return names;
 }
 template <>
 std::vector<std::string> names_of<BendingLaw>() {

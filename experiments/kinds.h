@@ -32,6 +32,8 @@ RunOutcome run_validation(const Settings& settings, OutputFolder& folder);
 RunOutcome run_accuracy(const Settings& settings, OutputFolder& folder);
 RunOutcome run_photographs(const Settings& settings, OutputFolder& folder);
 RunOutcome run_identifiability(const Settings& settings, OutputFolder& folder);
+RunOutcome run_work_precision(const Settings& settings, OutputFolder& folder);
+RunOutcome run_stability(const Settings& settings, OutputFolder& folder);
 RunOutcome run_branches(const Settings& settings, OutputFolder& folder);
 
 }  // namespace drape

@@ -50,6 +50,10 @@ RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
       return run_photographs(settings, folder);
     case Kind::identifiability:
       return run_identifiability(settings, folder);
+    case Kind::work_precision:
+      return run_work_precision(settings, folder);
+    case Kind::stability:
+      return run_stability(settings, folder);
     case Kind::branches:
       return run_branches(settings, folder);
   }

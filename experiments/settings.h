@@ -34,7 +34,9 @@ enum class Kind {
   validation,
   accuracy,
   photographs,
-  identifiability
+  identifiability,
+  work_precision,
+  stability
 };
 
 struct Experiment {
@@ -223,6 +225,27 @@ struct AccuracySettings {
   int fabrics = 6;
 };
 
+/// Counts the table of benchmarks/baselines/methods.h.
+enum class ComparedMethod {};
+
+struct WorkPrecisionSettings {
+  std::vector<int> vertices{1000};
+  int seeds = 2;
+  int fabrics = 3;
+  std::vector<ComparedMethod> methods;  ///< empty: all
+  double cpu_seconds = 3;               ///< of a run at 1000 vertices, in proportion to them [s]
+};
+
+struct StabilitySettings {
+  std::vector<int> vertices{250, 500};
+  std::vector<double> membrane_to_bending{1e4, 1e5, 1e6, 1e7};  ///< k_u l^2 / B, l the overhang
+  std::vector<double> areal_density{0.05, 0.2, 0.8};            ///< [kg/m^2]
+  std::vector<double> time_steps{1e-5, 1e-4, 1e-3, 1e-2};       ///< besides a method's own [s]
+  std::vector<ComparedMethod> methods;                          ///< empty: all
+  double cpu_seconds = 4;  ///< of a run at 1000 vertices, in proportion to them [s]
+  std::vector<int> only;   ///< indices of cells; empty: all
+};
+
 struct Settings {
   Experiment experiment;
   Fabric fabric;
@@ -240,6 +263,8 @@ struct Settings {
   QuickstartSettings quickstart;
   ValidationSettings validation;
   AccuracySettings accuracy;
+  WorkPrecisionSettings work_precision;
+  StabilitySettings stability;
   BranchesSettings branches;
   PhotographsSettings photographs;
   IdentifiabilitySettings identifiability;

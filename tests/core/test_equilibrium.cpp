@@ -99,6 +99,21 @@ TEST(Equilibrium, WithoutCertificateThereIsNoFactor) {
   EXPECT_EQ(drape.negative_eigenvalues, -1);
 }
 
+TEST(Equilibrium, StopsWhenItIsTold) {
+  const Potential E = potential(small_disc(), stiff_fabric());
+  int calls = 0;
+  EquilibriumOptions options;
+  options.go_on = [&](const VecX& x, const VecX& gradient) {
+    EXPECT_EQ(gradient, E.gradient(x));
+    return ++calls < 5;
+  };
+  const VecX start = folded_state(E.mesh(), kCusick, 4, 0);
+  const Equilibrium stopped = solve_equilibrium(E, start, options);
+  EXPECT_EQ(calls, 5);
+  EXPECT_EQ(stopped.status, EquilibriumStatus::iteration_limit);
+  EXPECT_EQ(stopped.x, solve_equilibrium(E, start, {.max_iterations = 5}).x);
+}
+
 TEST(Equilibrium, ANearbyFactorSavesFactorisations) {
   const EquilibriumOptions tight{.tolerance = 1e-9};
   int with_factor = 0, without = 0;

@@ -26,8 +26,10 @@ import identifiability  # noqa: E402
 import photographs  # noqa: E402
 import results as records  # noqa: E402
 import robustness  # noqa: E402
+import stability  # noqa: E402
 import style  # noqa: E402
 import validation  # noqa: E402
+import work_precision  # noqa: E402
 
 SUPPORT, SPECIMEN = 0.09, 0.15
 PARAMETERS = ["areal_density", "k_u", "k_v", "k_h", "k_bu", "k_bv", "k_bh", "s_bu", "s_bv", "s_bh",
@@ -142,6 +144,44 @@ def accuracy_summary():
         "soft": {"500": row(None, 0), "1000": row(None, 0)}}}
 
 
+METHODS = ["core", "projected_newton", "levenberg_marquardt", "lbfgs", "conjugate_gradients",
+           "implicit_euler", "backward_euler", "explicit_dynamics", "dynamic_relaxation", "admm",
+           "xpbd"]
+
+
+def work_precision_chart(error="rms_mm"):
+    """What a run of kind work_precision writes, made up; a run without a minimum to compare with."""
+    def curve(i, method):
+        low = [10, 1, 1e-3 if i else 0]
+        return {"method": method, "label": "Newton, projected Hessian",
+                "cpu_seconds": [0.001, 0.1, 1 + i], "low": low, "median": low,
+                "high": [10, 2, None if method == "xpbd" else 1e-2]}
+    return {"error": error, "panels": [
+        {"start": start, "vertices": vertices, "fabric": fabric, "softness": softness,
+         "budget_cpu_seconds": 3 * vertices / 1000, "seeds": 2,
+         "curves": [curve(i, method) for i, method in enumerate(METHODS)]}
+        for start in ("folded", "near") for vertices in (1000, 2000, 8000)
+        for fabric, softness in enumerate(("stiff", "medium", "soft"))]}
+
+
+def stability_atlas():
+    """What a run of kind stability writes, made up."""
+    outcomes = list(stability.OUTCOMES)
+    places = [("map", vertices, ratio, 0.2, step) for vertices in (250, 500)
+              for ratio in (1e4, 1e5, 1e6, 1e7) for step in (0, 1e-4, 1e-2)]
+    places += [("map", vertices, ratio, density, 0) for vertices in (250, 500)
+               for ratio in (1e4, 1e5, 1e6, 1e7) for density in (0.05, 0.8)]
+    places += [(case, 250, 0, 0, 0) for case in stability.CASES]
+    cells = [dict(method=method, case=case, vertices=vertices, membrane_to_bending=ratio,
+                  areal_density=density, time_step=step,
+                  outcome=outcomes[(i + j) % len(outcomes)], smallest_residual=2e-6)
+             for i, method in enumerate(METHODS)
+             for j, (case, vertices, ratio, density, step) in enumerate(places)
+             if not step or method in ("xpbd", "explicit_dynamics")]
+    return {"cpu_seconds": 2, "cells": cells,
+            "methods": {method: {"label": "implicit Euler, one solve"} for method in METHODS}}
+
+
 def texts(page):
     """The texts of a page with their boxes in pixels."""
     page.figure.canvas.draw()
@@ -247,6 +287,19 @@ class Figures(unittest.TestCase):
         page = identifiability.page(identifiability_summary())
         self.check_layout(page)
         self.assertIn("3 fabrics of the measured distribution", self.words(page))
+        self.check_layout(stability.page(stability_atlas()))
+        chart = work_precision_chart()
+        self.check_layout(work_precision.page(chart))
+        self.check_layout(work_precision.page(chart | {"panels": chart["panels"][:1]}))
+
+    def test_atlas_colours_every_cell_by_its_outcome(self):
+        atlas = stability_atlas()
+        page = stability.page(atlas)
+        drawn = [patch.get_facecolor() for axes in page.figure.axes for patch in axes.patches]
+        for outcome, (colour, _) in stability.OUTCOMES.items():
+            cells = sum(cell["outcome"] == outcome for cell in atlas["cells"])
+            self.assertEqual(drawn.count(stability.style.matplotlib.colors.to_rgba(colour)),
+                             cells + 1, outcome)  # one in the legend
 
     def test_elastica_of_small_load_is_a_beam(self):
         # c/8 with corrections of order c^3 = 1e-6 and second-order differences
@@ -256,7 +309,9 @@ class Figures(unittest.TestCase):
         for script, summary in (("validation", validation_summary()),
                                 ("accuracy", accuracy_summary()),
                                 ("photographs", photographs_summary()),
-                                ("identifiability", identifiability_summary())):
+                                ("identifiability", identifiability_summary()),
+                                ("work_precision", work_precision_chart()),
+                                ("stability", stability_atlas())):
             file = self.folder / "summary.json"
             file.write_text(json.dumps(summary))
             done = self.run_script(f"{script}.py", file, "--out", self.folder / script)
