@@ -28,6 +28,7 @@ StagedFit::StagedFit(const std::vector<Picture>& pictures, const Fabric& start,
 }
 
 void StagedFit::set_unknowns(const VecX& u) {
+  if (u == state_.u) return;
   state_.u = u;
   state_.fabric = space().decode(u.head(space().size()));
 }

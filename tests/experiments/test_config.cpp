@@ -64,7 +64,7 @@ ConfigValue another_value(const ConfigKey& key) {
     case ValueType::numbers:
       return std::vector<double>{1e-3 / 3, 1e-7};
     case ValueType::choices:
-      return std::vector<std::string>{"t_bh", "k_u"};
+      return std::vector<std::string>{key.choices.back(), key.choices.front()};
     case ValueType::paths:
       return std::vector<std::string>{"/a/b.png", "/a/\"c\".png"};
   }

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "tests/experiments/scratch_folder.h"
 
 namespace drape {
