@@ -21,7 +21,7 @@ constexpr double kNeedle = 1e-3;      // height over edge
 constexpr int kNeedles = 5;
 constexpr double kSoftening = 0.05, kStiffening = 20;  // s_b
 constexpr double kThreshold = 0.25;                    // t_b: a radius of about 20 mm
-constexpr double kSweepStep = 0.02, kSweepEnd = 1.5;   // of the logarithm of k_b
+constexpr double kSweepStep = 0.02, kSweepEnd = 3;     // of the logarithm of k_b
 constexpr double kSnap = 2e-3;                         // jump of a vertex [m]
 constexpr double kBeforeSnap = 1e-5;                   // of the logarithm of k_b
 

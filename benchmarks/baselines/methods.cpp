@@ -7,8 +7,8 @@ namespace drape::baselines {
 const std::vector<Method>& methods() {
   static const std::vector<Method> list{
       {"core", "this solver", false,
-       "Stops at energies that jump or are not finite; otherwise slow only where the Hessian stays "
-       "indefinite for long.",
+       "May stop where the energy jumps (secant law); slow where the Hessian stays indefinite for "
+       "long.",
        core_solver},
       {"projected_newton", "Newton, projected Hessian", false,
        "Never diverges; linear convergence, the slower the more the elements at rest are "

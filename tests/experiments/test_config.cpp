@@ -62,7 +62,8 @@ ConfigValue another_value(const ConfigKey& key) {
       return key.range.contains(5000) ? std::vector<std::int64_t>{5000, 300}
                                       : std::vector<std::int64_t>{50, 3};
     case ValueType::numbers:
-      return std::vector<double>{1e-3 / 3, 1e-7};
+      return key.range.contains(1e-7) ? std::vector<double>{1e-3 / 3, 1e-7}
+                                      : std::vector<double>{10. / 3, 2};
     case ValueType::choices:
       return std::vector<std::string>{key.choices.back(), key.choices.front()};
     case ValueType::paths:

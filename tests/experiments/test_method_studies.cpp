@@ -128,7 +128,7 @@ TEST(HardCases, AreWhatTheyAreCalled) {
 
 TEST(HardCases, NearSnapTheSmallestEigenvalueIsSmall) {
   Settings settings;
-  settings.start.lobes = 5;
+  settings.start.phase = 0.1;  // as in the config
   const Problem snap = hard_case("near_snap", settings, 250);
   const Equilibrium before = solve_equilibrium(snap.potential, snap.start, {.tolerance = 1e-9});
   ASSERT_TRUE(before.converged());
