@@ -38,7 +38,7 @@ void add_keys_of_kinds(ConfigKeyList& add) {
       "Number of random fabrics to recover; a dataset overrides it.",
       DRAPE_MEMBER(estimate.fabrics));
   add("estimate", "distribution", "", kAny,
-      "Random fabrics of a wide box, or of the distribution measured on 618 fabrics.",
+      "Random fabrics: a wide box, bending measured on 618 fabrics, or the model of tags.",
       DRAPE_MEMBER(estimate.distribution));
   add("estimate", "drape_coefficient", "per cent", {0, 100, true},
       "From .. to: random fabrics that drape outside are drawn again.",

@@ -41,7 +41,7 @@ std::vector<std::string> names_of<OutlineLoss>() {
 }
 template <>
 std::vector<std::string> names_of<TargetFabrics>() {
-  return {"box", "measured"};
+  return {"box", "measured", "tags"};
 }
 template <>
 std::vector<std::string> names_of<Perturb>() {

@@ -14,17 +14,6 @@
 namespace drape {
 namespace {
 
-Record tagged(const Tag& tag, const Fabric& fabric) {
-  Record record;
-  record.id = record.name = tag.id;
-  record.category = tag.category;
-  record.subcategory = tag.subcategory;
-  record.type = tag.type;
-  record.composition = composition_text(tag.composition);
-  record.fabric = fabric;
-  return record;
-}
-
 std::vector<Record> listed_fabrics(const DatasetSettings& dataset) {
   std::vector<Record> records;
   if (!dataset.parameters.empty()) {
@@ -40,6 +29,17 @@ std::vector<Record> listed_fabrics(const DatasetSettings& dataset) {
 }
 
 }  // namespace
+
+Record tagged(const Tag& tag, const Fabric& fabric) {
+  Record record;
+  record.id = record.name = tag.id;
+  record.category = tag.category;
+  record.subcategory = tag.subcategory;
+  record.type = tag.type;
+  record.composition = composition_text(tag.composition);
+  record.fabric = fabric;
+  return record;
+}
 
 DatasetFabrics::DatasetFabrics(const Settings& settings)
     : settings_(settings),

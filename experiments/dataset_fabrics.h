@@ -5,9 +5,13 @@
 #include <vector>
 
 #include "core/records.h"
+#include "estimation/tag.h"
 #include "experiments/settings.h"
 
 namespace drape {
+
+/// The record of a fabric with its tag, no drape yet.
+Record tagged(const Tag& tag, const Fabric& fabric);
 
 class DatasetFabrics {
  public:

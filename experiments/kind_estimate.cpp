@@ -3,6 +3,7 @@
 #include <exception>
 #include <iostream>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "core/random.h"
@@ -24,6 +25,7 @@ struct Targets {
   RecordsHeader header;
   std::shared_ptr<const Discretization> discretization;
   std::vector<Record> records;  // empty but for the id where random fabrics are not drawn yet
+  std::optional<RandomTargets> random;
 };
 
 std::vector<int> chosen_records(const Settings& settings, int available) {
@@ -61,13 +63,14 @@ Targets random_targets(const Settings& settings) {
   Targets targets;
   targets.discretization = make_discretization(settings);
   targets.header = records_header(settings, targets.discretization->mesh());
+  targets.random.emplace(settings, targets.discretization);
   targets.records.resize(static_cast<size_t>(settings.estimate.fabrics));
   for (size_t i = 0; i < targets.records.size(); ++i) targets.records[i].id = std::to_string(i);
   return targets;
 }
 
 Record finished(const Settings& settings, const Targets& targets, Record record, int index) {
-  if (record.positions.size() == 0) record = random_target(settings, targets.discretization, index);
+  if (record.positions.size() == 0) record = (*targets.random)[index];
   const Potential model(targets.discretization, record.fabric, targets.header.reading,
                         targets.header.scene.gravity);
   const std::uint64_t seed =

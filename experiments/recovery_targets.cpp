@@ -5,7 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "core/random.h"
+#include "estimation/random_tags.h"
+#include "estimation/tag_model.h"
+#include "experiments/dataset_fabrics.h"
 #include "experiments/fabric_distribution.h"
 #include "experiments/model.h"
 #include "experiments/random_fabric.h"
@@ -14,6 +16,7 @@ namespace drape {
 namespace {
 
 constexpr int kMaxDraws = 500;
+constexpr int kTags = 1000;  // enough for every type and fibre of the tables
 constexpr double kPi = 3.14159265358979323846;
 
 bool within(double value, const std::vector<double>& range) {
@@ -42,20 +45,47 @@ Settings with_protocol(const Settings& settings, int index, Random& random) {
 
 }  // namespace
 
-Record random_target(const Settings& settings, std::shared_ptr<const Discretization> discretization,
-                     int index) {
-  Random random(seed_of_item(settings.experiment.seed, static_cast<std::uint64_t>(index)));
-  const EstimateSettings& estimate = settings.estimate;
+RandomTargets::RandomTargets(const Settings& settings,
+                             std::shared_ptr<const Discretization> discretization)
+    : settings_(settings), discretization_(std::move(discretization)) {
+  if (settings.estimate.distribution == TargetFabrics::tags)
+    tags_ = random_tags(kTags, settings.experiment.seed);
+}
+
+Record RandomTargets::fabric(Random& random) const {
+  Record record;
+  switch (settings_.estimate.distribution) {
+    case TargetFabrics::box:
+      record.fabric = random_fabric(random);
+      break;
+    case TargetFabrics::measured:
+      record.fabric = random_fabric(random, FabricDistribution::measured);
+      break;
+    case TargetFabrics::tags: {
+      const auto which = static_cast<size_t>(random.uniform() * static_cast<double>(tags_.size()));
+      const Tag& tag = tags_[which];
+      record = tagged(tag, random_parameters(tag, settings_.reading.threshold, random));
+      break;
+    }
+  }
+  return record;
+}
+
+Record RandomTargets::operator[](int index) const {
+  Random random(seed_of_item(settings_.experiment.seed, static_cast<std::uint64_t>(index)));
+  const EstimateSettings& estimate = settings_.estimate;
   for (int draw = 0; draw < kMaxDraws; ++draw) {
-    const Fabric fabric = estimate.distribution == TargetFabrics::measured
-                              ? random_fabric(random, FabricDistribution::measured)
-                              : random_fabric(random);
-    if (!within(anisotropy(fabric), estimate.anisotropy)) continue;
-    const Settings chosen = with_protocol(settings, index, random);
-    Potential potential = make_potential(discretization, fabric, chosen);
+    const Record drawn = fabric(random);
+    if (!within(anisotropy(drawn.fabric), estimate.anisotropy)) continue;
+    const Settings chosen = with_protocol(settings_, index, random);
+    Potential potential = make_potential(discretization_, drawn.fabric, chosen);
     const Equilibrium target = drape(chosen, potential).equilibrium;
     Record record = make_record(chosen, potential, target);
     record.id = record.name = std::to_string(index);
+    record.category = drawn.category;
+    record.subcategory = drawn.subcategory;
+    record.type = drawn.type;
+    record.composition = drawn.composition;
     if (!target.converged() ||
         within(100 * record.observation.drape_coefficient, estimate.drape_coefficient))
       return record;

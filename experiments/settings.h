@@ -93,7 +93,11 @@ struct BranchesSettings {
 };
 
 /// Where the random fabrics of a recovery come from.
-enum class TargetFabrics { box, measured };
+enum class TargetFabrics {
+  box,       ///< log-uniform, wide
+  measured,  ///< bending and weight of 618 fabrics; stretch and shear log-uniform, each on its own
+  tags,      ///< the tag model: stretch, shear and bending that go together
+};
 
 /// How wrong the first parameters of a fit are where the truth is known: all times a factor, some
 /// times and some divided by it, or each times a log-uniform factor up to it, either way.
