@@ -323,6 +323,8 @@ void check_together(const Loaded& loaded, const std::string& name) {
     refuse("dataset.shard", "dataset.shard must be 1 to dataset.shards");
   if (!settings.dataset.table.empty() && !settings.dataset.parameters.empty())
     refuse("dataset.parameters", "dataset.table and dataset.parameters exclude each other");
+  if (kind == Kind::paper && settings.paper.configs.empty())
+    refuse("experiment.kind", "a paper needs paper.configs, the experiments to collect");
   if (kind == Kind::quickstart && settings.quickstart.table.empty())
     refuse("experiment.kind", "the quickstart needs quickstart.table");
   if (settings.start.protocol == StartProtocol::guided &&

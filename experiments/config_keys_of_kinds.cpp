@@ -184,6 +184,9 @@ void add_keys_of_kinds(ConfigKeyList& add) {
       "Indices of the fabrics to solve (again), e.g. of a failure; [] for all.",
       DRAPE_MEMBER(robustness.only));
 
+  add("paper", "configs", "", kAny, "The experiments whose figures are collected, in this order.",
+      DRAPE_MEMBER(paper.configs));
+
   add("quickstart", "fabrics", "", at_least(1), "Number of fabrics, from the top of the table.",
       DRAPE_MEMBER(quickstart.fabrics));
   add("quickstart", "table", "", kAny,
@@ -208,8 +211,7 @@ void add_keys_of_kinds(ConfigKeyList& add) {
       DRAPE_MEMBER(validation.plate_vertices));
   add("validation", "seeds", "", at_least(1), "Meshes of every size.",
       DRAPE_MEMBER(validation.seeds));
-  add("validation", "bias_vertices", "", kVertices,
-      "Mesh sizes of the drapes on turned meshes; [] for none.",
+  add("validation", "bias_vertices", "", kVertices, "Mesh sizes of the drapes on turned meshes.",
       DRAPE_MEMBER(validation.bias_vertices));
   add("validation", "rotations", "", at_least(1), "Rotations of every mesh, over half a turn.",
       DRAPE_MEMBER(validation.rotations));

@@ -8,7 +8,7 @@ template <>
 std::vector<std::string> names_of<Kind>() {
   return {"drape",       "dataset",         "estimate",       "photograph", "gradient_check",
           "robustness",  "quickstart",      "branches",       "validation", "accuracy",
-          "photographs", "identifiability", "work_precision", "stability"};
+          "photographs", "identifiability", "work_precision", "stability",  "paper"};
 }
 template <>
 std::vector<std::string> names_of<MeshKind>() {

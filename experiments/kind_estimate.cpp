@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/random.h"
+#include "experiments/figure.h"
 #include "experiments/interrupt.h"
 #include "experiments/kinds.h"
 #include "experiments/model.h"
@@ -124,6 +125,7 @@ RunOutcome run_estimate(const Settings& settings, OutputFolder& folder) {
   }
   if (interrupted()) return {"partial", {}};
   store.consolidate();
+  draw_figure("recovery.py", folder / "results.h5", folder / "recovery");
   nlohmann::ordered_json summary = recovery_summary(settings.estimate, store.load_all());
   const int succeeded = summary["succeeded"];
   std::cout << summary["recovered"] << " of " << count

@@ -8,43 +8,24 @@
 #include "experiments/figure.h"
 #include "experiments/interrupt.h"
 #include "experiments/kinds.h"
-#include "experiments/summary.h"
+#include "experiments/run_kind.h"
 
 namespace drape {
-namespace {
-
-using RunFunction = RunOutcome (*)(const Settings&, OutputFolder&);
-
-/// Runs a part in a folder of its own, or takes its finished result. Its summary, with status.
-nlohmann::ordered_json run_part(const std::string& part, RunFunction run, Kind kind,
-                                Settings settings, const OutputFolder& folder) {
-  const auto begin = std::chrono::steady_clock::now();
-  settings.experiment.kind = kind;
-  OutputFolder part_folder(folder / part, settings);
-  if (part_folder.state() == OutputFolder::State::finished) return read_summary(part_folder);
-  const RunOutcome outcome = run(settings, part_folder);
-  if (interrupted()) return {{"status", "partial"}};
-  nlohmann::ordered_json result = summary(kind, outcome, begin);
-  write_summary(part_folder, result);
-  return result;
-}
-
-}  // namespace
-
 RunOutcome run_quickstart(const Settings& settings, OutputFolder& folder) {
   const QuickstartSettings& quickstart = settings.quickstart;
   RunOutcome outcome{"ok", {}};
 
   Settings dataset = settings;
+  dataset.experiment.kind = Kind::dataset;
   dataset.dataset.table = quickstart.table;
   dataset.dataset.rows = quickstart.fabrics;
-  outcome.summary["dataset"] = run_part("dataset", drape_dataset, Kind::dataset, dataset, folder);
+  outcome.summary["dataset"] = run_part("dataset", dataset, folder, drape_dataset);
   if (interrupted()) return outcome;
 
   Settings estimate = settings;
+  estimate.experiment.kind = Kind::estimate;
   estimate.estimate.dataset = std::filesystem::absolute(folder / "dataset/results.h5");
-  outcome.summary["estimate"] =
-      run_part("estimate", run_estimate, Kind::estimate, estimate, folder);
+  outcome.summary["estimate"] = run_part("estimate", estimate, folder);
   if (interrupted()) return outcome;
 
   // the estimates' table holds the dataset's columns as well: it is this run's own result
@@ -56,12 +37,12 @@ RunOutcome run_quickstart(const Settings& settings, OutputFolder& folder) {
 
   if (!quickstart.photograph.empty() && std::filesystem::exists(quickstart.photograph)) {
     Settings photograph = settings;
+    photograph.experiment.kind = Kind::photograph;
     photograph.photograph.files = {quickstart.photograph};
     photograph.photograph.mm_per_pixel = quickstart.mm_per_pixel;
     photograph.photograph.areal_density = quickstart.areal_density;
     photograph.estimate.method = FitMethod::levenberg_marquardt;
-    outcome.summary["photograph"] =
-        run_part("photograph", run_photograph, Kind::photograph, photograph, folder);
+    outcome.summary["photograph"] = run_part("photograph", photograph, folder);
   } else if (!quickstart.photograph.empty()) {
     std::cout << "No photograph at " << quickstart.photograph.string()
               << ": that part is skipped\n";

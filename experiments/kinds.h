@@ -35,5 +35,6 @@ RunOutcome run_identifiability(const Settings& settings, OutputFolder& folder);
 RunOutcome run_work_precision(const Settings& settings, OutputFolder& folder);
 RunOutcome run_stability(const Settings& settings, OutputFolder& folder);
 RunOutcome run_branches(const Settings& settings, OutputFolder& folder);
+RunOutcome run_paper(const Settings& settings, OutputFolder& folder);
 
 }  // namespace drape

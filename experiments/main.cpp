@@ -16,7 +16,8 @@
 #include "experiments/dataset_fabrics.h"
 #include "experiments/interrupt.h"
 #include "experiments/isolated.h"
-#include "experiments/kinds.h"
+#include "experiments/paper_parts.h"
+#include "experiments/run_kind.h"
 #include "experiments/start_outline.h"
 #include "experiments/summary.h"
 #include "experiments/tag_report.h"
@@ -25,40 +26,6 @@ namespace drape {
 namespace {
 
 constexpr int kDone = 0, kUnexpected = 1, kBadInput = 2, kSolveFailed = 3, kInterrupted = 130;
-
-RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
-  switch (settings.experiment.kind) {
-    case Kind::drape:
-      return run_drape(settings, folder);
-    case Kind::dataset:
-      return run_dataset(settings, folder);
-    case Kind::estimate:
-      return run_estimate(settings, folder);
-    case Kind::photograph:
-      return run_photograph(settings, folder);
-    case Kind::gradient_check:
-      return run_gradient_check(settings, folder);
-    case Kind::robustness:
-      return run_robustness(settings, folder);
-    case Kind::quickstart:
-      return run_quickstart(settings, folder);
-    case Kind::validation:
-      return run_validation(settings, folder);
-    case Kind::accuracy:
-      return run_accuracy(settings, folder);
-    case Kind::photographs:
-      return run_photographs(settings, folder);
-    case Kind::identifiability:
-      return run_identifiability(settings, folder);
-    case Kind::work_precision:
-      return run_work_precision(settings, folder);
-    case Kind::stability:
-      return run_stability(settings, folder);
-    case Kind::branches:
-      return run_branches(settings, folder);
-  }
-  throw std::logic_error("a kind of experiment without a function");
-}
 
 int exit_code(const std::string& status) { return status == "ok" ? kDone : kSolveFailed; }
 
@@ -76,6 +43,8 @@ void check_inputs(const Settings& settings) {
   if (kind == Kind::photograph) {
     for (const std::filesystem::path& file : settings.photograph.files)
       read_photograph(file, 1e-3 * settings.photograph.mm_per_pixel, settings.scene);
+  } else if (kind == Kind::paper) {
+    paper_parts(settings);
   } else if (kind == Kind::estimate && !settings.estimate.dataset.empty()) {
     const std::filesystem::path& file = settings.estimate.dataset;
     probe(file.string(), [&file] { visit_records(file, [](size_t, const Record&) {}); });
@@ -88,7 +57,7 @@ void check_inputs(const Settings& settings) {
 
 int run(const Settings& settings, const std::filesystem::path& out) {
   check_inputs(settings);
-  const auto begin = std::chrono::steady_clock::now();
+  const RunStart start;
   OutputFolder folder(out, settings);
   if (folder.state() == OutputFolder::State::finished) {
     const std::string status = read_status(folder);
@@ -106,7 +75,7 @@ int run(const Settings& settings, const std::filesystem::path& out) {
               << " keeps what was finished; the same command resumes it.\n";
     return kInterrupted;
   }
-  write_summary(folder, summary(settings.experiment.kind, outcome, begin));
+  write_summary(folder, summary(settings.experiment.kind, outcome, start));
   std::cout << "Done (status " << outcome.status << "):\n";
   print_content(folder);
   return exit_code(outcome.status);

@@ -36,7 +36,8 @@ enum class Kind {
   photographs,
   identifiability,
   work_precision,
-  stability
+  stability,
+  paper
 };
 
 struct Experiment {
@@ -181,6 +182,11 @@ struct QuickstartSettings {
   double mm_per_pixel = 0, areal_density = 0;  ///< of the photograph
 };
 
+/// A set of experiments whose figures end on one page.
+struct PaperSettings {
+  std::vector<std::filesystem::path> configs;  ///< in the order of the figures
+};
+
 struct PhotographSettings {
   std::vector<std::filesystem::path> files;
   double mm_per_pixel = 0;   ///< [mm]; 0: not given
@@ -265,6 +271,7 @@ struct Settings {
   GradientCheckSettings gradient_check;
   RobustnessSettings robustness;
   QuickstartSettings quickstart;
+  PaperSettings paper;
   ValidationSettings validation;
   AccuracySettings accuracy;
   WorkPrecisionSettings work_precision;

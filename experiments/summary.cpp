@@ -6,7 +6,6 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "core/cpu_clock.h"
 #include "core/durable_file.h"
 #include "core/version.h"
 #include "experiments/config_keys.h"
@@ -18,15 +17,14 @@ constexpr const char* kFile = "summary.json";
 
 }  // namespace
 
-nlohmann::ordered_json summary(Kind kind, const RunOutcome& outcome,
-                               std::chrono::steady_clock::time_point begin) {
+nlohmann::ordered_json summary(Kind kind, const RunOutcome& outcome, const RunStart& start) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start.wall;
   nlohmann::ordered_json all = {
       {"kind", name(kind)},
       {"status", outcome.status},
-      {"cpu_seconds", process_cpu_seconds()},
+      {"cpu_seconds", process_cpu_seconds() - start.cpu_seconds},
       {"wall_seconds", wall.count()},
       {"peak_memory_bytes", std::int64_t{1024} * usage.ru_maxrss},  // Linux counts kibibytes
       {"version", version()},

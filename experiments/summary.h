@@ -5,17 +5,23 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/cpu_clock.h"
 #include "experiments/kinds.h"
 #include "experiments/output_folder.h"
 #include "experiments/settings.h"
 
 namespace drape {
 
-/// The keys that all kinds share (kind, status, cpu_seconds and peak_memory_bytes of this process,
-/// wall_seconds since `begin`, version, git_commit), then the kind's own, which must not repeat
-/// them (std::logic_error). A resumed run counts its last session only.
-nlohmann::ordered_json summary(Kind kind, const RunOutcome& outcome,
-                               std::chrono::steady_clock::time_point begin);
+/// When a run began, on the wall and in CPU of this process.
+struct RunStart {
+  std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
+  double cpu_seconds = process_cpu_seconds();
+};
+
+/// The keys that all kinds share (kind, status, cpu_seconds and wall_seconds since `start`,
+/// peak_memory_bytes of this process, version, git_commit), then the kind's own, which must not
+/// repeat them (std::logic_error). A resumed run counts its last session only.
+nlohmann::ordered_json summary(Kind kind, const RunOutcome& outcome, const RunStart& start);
 
 /// As text: NaN and infinity become null, bytes that are not UTF-8 U+FFFD.
 std::string summary_text(const nlohmann::ordered_json& summary);

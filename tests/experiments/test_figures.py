@@ -23,7 +23,10 @@ import drape_sheet  # noqa: E402
 import ensemble  # noqa: E402
 import estimate_overlay  # noqa: E402
 import identifiability  # noqa: E402
+import paper  # noqa: E402
 import photographs  # noqa: E402
+import recovery  # noqa: E402
+import render  # noqa: E402
 import results as records  # noqa: E402
 import robustness  # noqa: E402
 import stability  # noqa: E402
@@ -321,6 +324,57 @@ class Figures(unittest.TestCase):
             done = self.run_script(f"{script}.py", file, "--out", self.folder / script)
             self.assertEqual(done.returncode, 2)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+    def test_recovery_shows_every_outcome(self):
+        write(self.file, 9, outcomes=("succeeded", "misfit", "the guide could not be released"))
+        page = recovery.page_of(records.read(self.file))
+        self.check_layout(page)
+        words = self.words(page)
+        for said in ("explains the outline: 3 of 9", "misfit remains: 3 of 9",
+                     "branch lost or no start: 3 of 9"):
+            self.assertIn(said, words)
+        titles = " ".join(axes.get_title() for axes in page.figure.axes)
+        self.assertIn("median |ln error| 1.39", titles)  # ln 4, of those found four times too small
+        write(self.file, 2, outcomes=("",))
+        self.check_layout(recovery.page_of(records.read(self.file)))
+
+    def test_scene_of_a_render_has_the_drape(self):
+        write(self.file, 8)
+        results = records.read(self.file)
+        chosen = render.chosen(results)
+        self.assertEqual(len(chosen), 6)
+        coefficients = [record.drape_coefficient for record in chosen]
+        self.assertEqual(coefficients, sorted(coefficients))
+        scene = render.scene(results, chosen[0].positions, (0.5, 0.6, 0.7))
+        count = len(results.rest_uv)
+        self.assertIn(f"vertex_vectors {{ {count}, ", scene)
+        self.assertIn(f"face_indices {{ {len(results.triangles)}, ", scene)
+        normals = render.vertex_normals(chosen[0].positions, results.triangles)
+        np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, rtol=1e-12)
+
+    def test_paper_holds_figures_and_where_they_come_from(self):
+        part = self.folder / "robustness"
+        part.mkdir()
+        page = style.Page(40, 30)
+        page.text(2, 2, "x")
+        page.save(part / "units")
+        (part / "config.toml").write_text("[robustness]\nfabrics = 3  # <few>\n")
+        (part / "summary.json").write_text(json.dumps(dict(
+            kind="robustness", git_commit="abc123", cpu_seconds=12.4, certified_minima=3)))
+        parts = [dict(name="robustness", config="/somewhere/experiments/configs/robustness.toml",
+                      status="partial")]
+        (self.folder / "parts.json").write_text(json.dumps(parts))
+        done = self.run_script("paper.py", self.folder, "--out", self.folder / "figures")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.folder / "figures.html").read_text()
+        for said in ("Figure 1. Cold drapes of random fabrics", "data:image/png;base64,", "abc123",
+                     "./experiments/run experiments/configs/robustness.toml", "&lt;few&gt;",
+                     "Status: partial", "<td>certified minima</td><td>3</td>"):
+            self.assertIn(said, text)
+        self.assertTrue((self.folder / "robustness_units.pdf").exists())
+        (part / "summary.json").unlink()
+        done = self.run_script("paper.py", self.folder, "--out", self.folder / "figures")
+        self.assertEqual(done.returncode, 2)
 
     def test_ensemble_shows_every_minimum(self):
         write(self.file, 9)

@@ -1,0 +1,58 @@
+#include "experiments/run_kind.h"
+
+#include <stdexcept>
+
+#include "experiments/interrupt.h"
+#include "experiments/summary.h"
+
+namespace drape {
+
+RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
+  switch (settings.experiment.kind) {
+    case Kind::drape:
+      return run_drape(settings, folder);
+    case Kind::dataset:
+      return run_dataset(settings, folder);
+    case Kind::estimate:
+      return run_estimate(settings, folder);
+    case Kind::photograph:
+      return run_photograph(settings, folder);
+    case Kind::gradient_check:
+      return run_gradient_check(settings, folder);
+    case Kind::robustness:
+      return run_robustness(settings, folder);
+    case Kind::quickstart:
+      return run_quickstart(settings, folder);
+    case Kind::validation:
+      return run_validation(settings, folder);
+    case Kind::accuracy:
+      return run_accuracy(settings, folder);
+    case Kind::photographs:
+      return run_photographs(settings, folder);
+    case Kind::identifiability:
+      return run_identifiability(settings, folder);
+    case Kind::work_precision:
+      return run_work_precision(settings, folder);
+    case Kind::stability:
+      return run_stability(settings, folder);
+    case Kind::paper:
+      return run_paper(settings, folder);
+    case Kind::branches:
+      return run_branches(settings, folder);
+  }
+  throw std::logic_error("a kind of experiment without a function");
+}
+
+nlohmann::ordered_json run_part(const std::string& part, const Settings& settings,
+                                const OutputFolder& folder, RunFunction run) {
+  const RunStart start;
+  OutputFolder part_folder(folder / part, settings);
+  if (part_folder.state() == OutputFolder::State::finished) return read_summary(part_folder);
+  const RunOutcome outcome = run(settings, part_folder);
+  if (interrupted()) return {{"status", "partial"}};
+  nlohmann::ordered_json result = summary(settings.experiment.kind, outcome, start);
+  write_summary(part_folder, result);
+  return result;
+}
+
+}  // namespace drape
