@@ -154,6 +154,7 @@ def work_precision_chart(error="rms_mm"):
     def curve(i, method):
         low = [10, 1, 1e-3 if i else 0]
         return {"method": method, "label": "Newton, projected Hessian",
+                "outcomes": ["converged", ["converged", "out_of_budget", "stalled"][i % 3]],
                 "cpu_seconds": [0.001, 0.1, 1 + i], "low": low, "median": low,
                 "high": [10, 2, None if method == "xpbd" else 1e-2]}
     return {"error": error, "panels": [
@@ -300,6 +301,11 @@ class Figures(unittest.TestCase):
             cells = sum(cell["outcome"] == outcome for cell in atlas["cells"])
             self.assertEqual(drawn.count(stability.style.matplotlib.colors.to_rgba(colour)),
                              cells + 1, outcome)  # one in the legend
+
+    def test_ends_of_curves_say_what_became_of_the_runs(self):
+        self.assertEqual(work_precision.end(["converged", "converged"]), ("o", None))
+        self.assertEqual(work_precision.end(["stalled", "out_of_budget"]), ("o", "white"))
+        self.assertEqual(work_precision.end(["converged", "stalled"]), ("x", None))
 
     def test_elastica_of_small_load_is_a_beam(self):
         # c/8 with corrections of order c^3 = 1e-6 and second-order differences
