@@ -255,6 +255,45 @@ void add_keys_of_kinds(ConfigKeyList& add) {
       "Indices of the cells to run (again), e.g. of a failure; [] for all.",
       DRAPE_MEMBER(stability.only));
 
+  add("ablation", "drape_coefficients", "per cent", {0, 100, true},
+      "Fabrics: the given one with its bending stiffnesses scaled to these drape coefficients.",
+      DRAPE_MEMBER(ablation.drape_coefficients));
+  add("ablation", "ingredients", "", kAny, "What is changed, one at a time; [] for all.",
+      DRAPE_MEMBER(ablation.ingredients));
+  add("ablation", "outline_tolerance", "m", kPositive,
+      "The rule of contact = \"auto\" has to act where contact changes the outline by more (rms), "
+      "or "
+      "the drape coefficient by more than mesh.tolerance.",
+      DRAPE_MEMBER(ablation.outline_tolerance));
+  add("ablation", "largest_vertices", "", kNotNegative,
+      "Largest mesh on which the rule of vertices = \"auto\" is tried, at least 600; it is judged "
+      "on "
+      "one twice as large. 0 leaves that out.",
+      DRAPE_MEMBER(ablation.largest_vertices));
+
+  add("gradient_precision", "parameters", "", kAny, "The parameters of the gradient.",
+      DRAPE_MEMBER(gradient_precision.parameters));
+  add("gradient_precision", "tolerances", "", {0, 1, false},
+      "Relative residuals at which adjoint and sensitivities are tried.",
+      DRAPE_MEMBER(gradient_precision.tolerances));
+  add("gradient_precision", "steps", "", {0, 1, false},
+      "Steps of the central differences, of log parameters.",
+      DRAPE_MEMBER(gradient_precision.steps));
+  add("gradient_precision", "difference_tolerances", "", {0, 1, false},
+      "Relative residuals of the equilibria that are differenced.",
+      DRAPE_MEMBER(gradient_precision.difference_tolerances));
+  add("gradient_precision", "time_steps", "s", kPositive, "Of the unrolled dynamics.",
+      DRAPE_MEMBER(gradient_precision.time_steps));
+  add("gradient_precision", "unrolled_steps", "", at_least(1),
+      "Numbers of time steps after which the dynamics are truncated, ascending.",
+      DRAPE_MEMBER(gradient_precision.unrolled_steps));
+  add("gradient_precision", "snap_to", "", {1, kInfinity, false},
+      "A snap is looked for from the fabric's bending stiffness to this many times it.",
+      DRAPE_MEMBER(gradient_precision.snap_to));
+  add("gradient_precision", "distances", "", {0, 1, false},
+      "Distances from the limit point at which the gradient is looked at, of the log stiffness.",
+      DRAPE_MEMBER(gradient_precision.distances));
+
   add("branches", "softest", "", kPositive,
       "Factor on the fabric's bending stiffnesses where the sweeps start and end.",
       DRAPE_MEMBER(branches.softest));

@@ -1,14 +1,17 @@
 #include "experiments/config_names.h"
 
 #include "benchmarks/baselines/methods.h"
+#include "experiments/ingredients.h"
 
 namespace drape {
 
 template <>
 std::vector<std::string> names_of<Kind>() {
-  return {"drape",       "dataset",         "estimate",       "photograph", "gradient_check",
-          "robustness",  "quickstart",      "branches",       "validation", "accuracy",
-          "photographs", "identifiability", "work_precision", "stability",  "paper"};
+  return {"drape",          "dataset",    "estimate",    "photograph",
+          "gradient_check", "robustness", "quickstart",  "branches",
+          "validation",     "accuracy",   "photographs", "identifiability",
+          "work_precision", "stability",  "ablation",    "gradient_precision",
+          "paper"};
 }
 template <>
 std::vector<std::string> names_of<MeshKind>() {
@@ -66,6 +69,12 @@ std::vector<std::string> names_of<Structure>() {
 template <>
 std::vector<std::string> names_of<CheckedLoss>() {
   return {"profile", "coverage", "drape_coefficient"};
+}
+template <>
+std::vector<std::string> names_of<AblatedIngredient>() {
+  std::vector<std::string> list;
+  for (const Ingredient& i : ingredients()) list.emplace_back(i.name);
+  return list;
 }
 template <>
 std::vector<std::string> names_of<ComparedMethod>() {

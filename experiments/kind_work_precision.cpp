@@ -5,6 +5,7 @@
 // the minimum that core polishes its last state to. From the near start, the equilibrium of a
 // fabric whose bending is ten percent stiffer, there is usually one basin for all. The error of a
 // state is the root mean square distance of its free vertices; a drape coefficient's is in points.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -39,15 +40,14 @@ constexpr double kStiffer = 1.1;       // bending whose equilibrium is the near 
 constexpr double kPolished = 1e-10;    // residual, or the rounding floor
 constexpr double kSameMinimum = 1e-5;  // vertices of one minimum are closer [m]
 
-/// One run: which method, from which start, on which fabric and mesh.
+/// What all methods begin with: which start, on which fabric and mesh.
 struct Case {
   int vertices, seed, fabric;
   const char* start;
-  const baselines::Method* method;
 
-  std::string item() const {
+  std::string item(const baselines::Method& method) const {
     return std::to_string(vertices) + "_" + std::to_string(seed) + "_" + std::to_string(fabric) +
-           "_" + start + "_" + std::string(method->name);
+           "_" + start + "_" + std::string(method.name);
   }
 };
 
@@ -87,13 +87,11 @@ double coefficient(const Scene& scene, const Mesh& mesh, const VecX& x) {
   }
 }
 
-Json run_case(const Settings& settings, const Potential& potential, const Start& start,
-              const Case& c) {
-  const WorkPrecisionSettings& study = settings.work_precision;
+Json run_method(const Settings& settings, const Potential& potential, const Start& start,
+                double cpu_seconds, const baselines::Method& method) {
   const baselines::MethodRun run =
-      baselines::run(*c.method, potential, start.x,
-                     {.cpu_seconds = budget_of_size(study.cpu_seconds, c.vertices),
-                      .tolerance = settings.solver.tolerance});
+      baselines::run(method, potential, start.x,
+                     {.cpu_seconds = cpu_seconds, .tolerance = settings.solver.tolerance});
   const Equilibrium minimum = solve_equilibrium(potential, run.end().x, {.tolerance = kPolished});
   const bool polished = minimum.converged();
   const double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -126,9 +124,12 @@ Json run_case(const Settings& settings, const Potential& potential, const Start&
 /// All runs on one mesh that are not in the store yet.
 void run_mesh(const Settings& settings, const JsonStore& store, const std::vector<Case>& cases,
               Progress& progress) {
+  const WorkPrecisionSettings& study = settings.work_precision;
+  const auto methods = compared_methods(study.methods);
   std::vector<Case> missing;
   for (const Case& c : cases)
-    if (!store.has(c.item())) missing.push_back(c);
+    if (!std::ranges::all_of(methods, [&](const auto* m) { return store.has(c.item(*m)); }))
+      missing.push_back(c);
   if (missing.empty()) return;
   Settings other = settings;
   other.mesh.seed = settings.mesh.seed + static_cast<std::uint64_t>(missing.front().seed - 1);
@@ -136,9 +137,15 @@ void run_mesh(const Settings& settings, const JsonStore& store, const std::vecto
   for_each_item(static_cast<int>(missing.size()), settings.experiment.thread_count(), [&](int i) {
     const Case& c = missing[static_cast<size_t>(i)];
     const Potential potential = make_potential(mesh, study_fabric(c.fabric).fabric, settings);
-    store.save(c.item(),
-               run_case(settings, potential, make_start(settings, potential, c.start), c));
-    progress.advance();
+    const Start start = make_start(settings, potential, c.start);
+    for (const baselines::Method* method : methods) {
+      if (interrupted()) return;
+      if (store.has(c.item(*method))) continue;
+      store.save(c.item(*method),
+                 run_method(settings, potential, start,
+                            budget_of_size(study.cpu_seconds, c.vertices), *method));
+      progress.advance();
+    }
   });
 }
 
@@ -172,12 +179,13 @@ RunOutcome run_work_precision(const Settings& settings, OutputFolder& folder) {
     for (int seed = 1; seed <= study.seeds; ++seed) {
       std::vector<Case>& cases = meshes.emplace_back();
       for (const char* start : kStarts)
-        for (int fabric = 0; fabric < study.fabrics; ++fabric)
+        for (int fabric = 0; fabric < study.fabrics; ++fabric) {
+          cases.push_back({vertices, seed, fabric, start});
           for (const baselines::Method* method : compared_methods(study.methods)) {
-            cases.push_back({vertices, seed, fabric, start, method});
             ++total;
-            resumed += store.has(cases.back().item());
+            resumed += store.has(cases.back().item(*method));
           }
+        }
     }
   {
     Progress progress("work-precision", total, resumed);
@@ -204,7 +212,7 @@ RunOutcome run_work_precision(const Settings& settings, OutputFolder& folder) {
         for (const baselines::Method* method : compared_methods(study.methods)) {
           ComparedRuns compared{std::string(method->name), std::string(method->label), {}};
           for (int seed = 1; seed <= study.seeds; ++seed)
-            compared.runs.push_back(store.load(Case{vertices, seed, fabric, start, method}.item()));
+            compared.runs.push_back(store.load(Case{vertices, seed, fabric, start}.item(*method)));
           for (const char* chart : kCharts)
             curves[chart].push_back(
                 error_curve(compared, chart, panel["budget_cpu_seconds"].get<double>()));

@@ -34,6 +34,8 @@ RunOutcome run_photographs(const Settings& settings, OutputFolder& folder);
 RunOutcome run_identifiability(const Settings& settings, OutputFolder& folder);
 RunOutcome run_work_precision(const Settings& settings, OutputFolder& folder);
 RunOutcome run_stability(const Settings& settings, OutputFolder& folder);
+RunOutcome run_ablation(const Settings& settings, OutputFolder& folder);
+RunOutcome run_gradient_precision(const Settings& settings, OutputFolder& folder);
 RunOutcome run_branches(const Settings& settings, OutputFolder& folder);
 RunOutcome run_paper(const Settings& settings, OutputFolder& folder);
 

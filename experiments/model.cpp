@@ -3,6 +3,7 @@
 #include <exception>
 #include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include "core/coarse_level.h"
 #include "core/drape_protocol.h"
@@ -89,8 +90,9 @@ ContactDrape drape(const Settings& settings, Potential& potential,
                             equilibrium_options(settings));
 }
 
-ResolvedDrape drape_resolved(const Settings& settings) {
-  const ResolutionOptions resolution{.tolerance = settings.mesh.tolerance / 100};
+ResolvedDrape drape_resolved(const Settings& settings, int largest_vertices) {
+  ResolutionOptions resolution{.tolerance = settings.mesh.tolerance / 100};
+  std::erase_if(resolution.vertices, [&](int vertices) { return vertices > largest_vertices; });
   const DiscMeshOptions mesh = mesh_options(settings, resolution.vertices.front());
   return drape_resolved(
       settings.scene, mesh,

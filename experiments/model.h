@@ -36,8 +36,9 @@ ContactDrape drape(const Settings& settings, Potential& potential);
 ContactDrape drape(const Settings& settings, Potential& potential,
                    const std::function<Equilibrium(const Potential&)>& from);
 
-/// The same on a mesh as fine as the drape needs, by mesh.tolerance.
-ResolvedDrape drape_resolved(const Settings& settings);
+/// The same on a mesh as fine as the drape needs, by mesh.tolerance, of no more vertices than
+/// those.
+ResolvedDrape drape_resolved(const Settings& settings, int largest_vertices = 1'000'000);
 
 EnsembleOptions ensemble_options(const Settings& settings);
 

@@ -35,6 +35,10 @@ RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
       return run_work_precision(settings, folder);
     case Kind::stability:
       return run_stability(settings, folder);
+    case Kind::ablation:
+      return run_ablation(settings, folder);
+    case Kind::gradient_precision:
+      return run_gradient_precision(settings, folder);
     case Kind::paper:
       return run_paper(settings, folder);
     case Kind::branches:

@@ -37,6 +37,8 @@ enum class Kind {
   identifiability,
   work_precision,
   stability,
+  ablation,
+  gradient_precision,
   paper
 };
 
@@ -256,6 +258,28 @@ struct StabilitySettings {
   std::vector<int> only;   ///< indices of cells; empty: all
 };
 
+/// Counts the table of ingredients.h.
+enum class AblatedIngredient {};
+
+struct AblationSettings {
+  std::vector<double> drape_coefficients{10, 25, 40, 55, 70, 85, 95};  ///< aimed at [per cent]
+  std::vector<AblatedIngredient> ingredients;                          ///< empty: all
+  double outline_tolerance = 1e-3;  ///< what "auto" must keep, besides mesh.tolerance [m]
+  int largest_vertices = 8000;      ///< of the mesh that judges mesh.vertices = "auto"
+};
+
+struct GradientPrecisionSettings {
+  std::vector<Parameter> parameters{Parameter::k_u,  Parameter::k_h,  Parameter::k_bu,
+                                    Parameter::k_bv, Parameter::k_bh, Parameter::s_bh};
+  std::vector<double> tolerances{1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+  std::vector<double> steps{1e-1, 1e-2, 1e-3, 1e-4, 1e-5};  ///< of central differences
+  std::vector<double> difference_tolerances{1e-4, 1e-6, 1e-8};
+  std::vector<double> time_steps{0.01, 0.1};          ///< of the unrolled dynamics [s]
+  std::vector<int> unrolled_steps{10, 30, 100, 300};  ///< after which it is truncated
+  double snap_to = 10;  ///< factor on the bending up to which a snap is looked for
+  std::vector<double> distances{1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5};
+};
+
 struct Settings {
   Experiment experiment;
   Fabric fabric;
@@ -276,6 +300,8 @@ struct Settings {
   AccuracySettings accuracy;
   WorkPrecisionSettings work_precision;
   StabilitySettings stability;
+  AblationSettings ablation;
+  GradientPrecisionSettings gradient_precision;
   BranchesSettings branches;
   PhotographsSettings photographs;
   IdentifiabilitySettings identifiability;

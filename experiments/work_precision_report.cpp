@@ -45,6 +45,8 @@ double time_within(const Json& run, const std::string& error, double tolerance) 
 Json error_curve(const ComparedRuns& compared, const std::string& error, double budget) {
   Json curve = {{"method", compared.method}, {"label", compared.label}};
   for (const char* name : {"cpu_seconds", "median", "low", "high"}) curve[name] = Json::array();
+  curve["outcomes"] = Json::array();
+  for (const Json& run : compared.runs) curve["outcomes"].push_back(run["outcome"]);
   double longest = 0;
   for (const Json& run : compared.runs)
     longest = std::max(longest, run["trace"]["cpu_seconds"].back().get<double>());

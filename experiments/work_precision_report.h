@@ -21,7 +21,8 @@ struct ComparedRuns {
 double time_within(const nlohmann::ordered_json& run, const std::string& error, double tolerance);
 
 /// Median, least and largest error of the runs at geometrically spaced CPU times up to `budget`;
-/// a run that has ended keeps its last error. Arrays cpu_seconds, median, low, high.
+/// a run that has ended keeps its last error. Arrays cpu_seconds, median, low, high, and outcomes,
+/// one a run.
 nlohmann::ordered_json error_curve(const ComparedRuns& compared, const std::string& error,
                                    double budget);
 

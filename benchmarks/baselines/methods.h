@@ -27,7 +27,6 @@ struct Method {
   std::string_view name;   ///< in configs and results
   std::string_view label;  ///< in figures
   bool has_time_step;
-  std::string_view limit;  ///< where it is known to fail and why, for the atlas of a study
   VecX (*minimise)(const Potential&, VecX, Course&);  ///< returns the state it ends with
 };
 

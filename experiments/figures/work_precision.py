@@ -16,7 +16,7 @@ TITLES = {
 }
 LOWEST = {"residual": 1e-10, "rms_mm": 1e-7, "drape_coefficient_error": 1e-7}
 STARTS = {"folded": "from a folded state", "near": "from a drape 10 % stiffer"}
-LEFT, TOP, WIDTH, HEIGHT, STEP_X, STEP_Y = 13, 26, 50, 38, 56.5, 51
+LEFT, TOP, WIDTH, HEIGHT, STEP_X, STEP_Y = 13, 30, 50, 38, 56.5, 51
 
 
 def page(chart):
@@ -30,8 +30,9 @@ def page(chart):
     figure.text(6, 4, "Error against CPU time", fontsize=11, weight="bold")
     seeds = panels[0]["seeds"]
     figure.text(6, 10.5, f"{TITLES[chart['error']]};\nmedian and range over {seeds} "
-                f"mesh{'es' if seeds > 1 else ''}. All methods have the same budget of CPU time; a "
-                "line that ends earlier has converged or stopped.")
+                f"mesh{'es' if seeds > 1 else ''}. All methods have the same budget of CPU time. Full "
+                "circle: every run\nconverged; open: some run was still on its way when its budget "
+                "ended; cross: the others stalled, diverged or ended at a saddle.")
     floor = LOWEST[chart["error"]]
     for panel in panels:
         row, column = rows.index((panel["start"], panel["vertices"])), \
@@ -63,8 +64,16 @@ def draw(axes, curve, floor):
     axes.plot(time, np.maximum(middle, floor), **look)
     axes.fill_between(time, np.maximum(low, floor), np.maximum(high, floor), color=look["color"],
                       alpha=0.12, linewidth=0)
-    axes.plot(time[-1:], np.maximum(middle[-1:], floor), "o", color=look["color"], markersize=2.2,
-              zorder=look["zorder"])
+    marker, face = end(curve["outcomes"])
+    axes.plot(time[-1:], np.maximum(middle[-1:], floor), marker, color=look["color"], markersize=2.6,
+              markeredgewidth=0.7, markerfacecolor=face or look["color"], zorder=look["zorder"] + 1)
+
+
+def end(outcomes):
+    """Marker and face colour (None: the line's) of a curve's end."""
+    if all(outcome == "converged" for outcome in outcomes):
+        return "o", None
+    return ("o", "white") if "out_of_budget" in outcomes else ("x", None)
 
 
 def legend(figure, curves, top):

@@ -16,12 +16,14 @@ import numpy as np
 FIGURES = Path(__file__).resolve().parents[2] / "experiments" / "figures"
 sys.path.insert(0, str(FIGURES))
 
+import ablation  # noqa: E402
 import accuracy  # noqa: E402
 import branches  # noqa: E402
 import dataset  # noqa: E402
 import drape_sheet  # noqa: E402
 import ensemble  # noqa: E402
 import estimate_overlay  # noqa: E402
+import gradient_precision  # noqa: E402
 import identifiability  # noqa: E402
 import paper  # noqa: E402
 import photographs  # noqa: E402
@@ -29,6 +31,7 @@ import recovery  # noqa: E402
 import render  # noqa: E402
 import results as records  # noqa: E402
 import robustness  # noqa: E402
+import snap_gradient  # noqa: E402
 import stability  # noqa: E402
 import style  # noqa: E402
 import validation  # noqa: E402
@@ -157,6 +160,7 @@ def work_precision_chart(error="rms_mm"):
     def curve(i, method):
         low = [10, 1, 1e-3 if i else 0]
         return {"method": method, "label": "Newton, projected Hessian",
+                "outcomes": ["converged", ["converged", "out_of_budget", "stalled"][i % 3]],
                 "cpu_seconds": [0.001, 0.1, 1 + i], "low": low, "median": low,
                 "high": [10, 2, None if method == "xpbd" else 1e-2]}
     return {"error": error, "panels": [
@@ -165,6 +169,59 @@ def work_precision_chart(error="rms_mm"):
          "curves": [curve(i, method) for i, method in enumerate(METHODS)]}
         for start in ("folded", "near") for vertices in (1000, 2000, 8000)
         for fabric, softness in enumerate(("stiff", "medium", "soft"))]}
+
+
+def ablation_result():
+    """What a run of kind ablation writes, made up: a fabric without a drape, cells of every kind."""
+    names = [f"ingredient {i}" for i in range(16)]
+    cells = []
+    for i, name in enumerate(names):
+        for fabric in range(6):
+            cell = {"ingredient": name, "fabric": fabric, "status": "converged", "followed": i != 2,
+                    "snaps": int(i == 3), "snap_change": 2.0 * (i == 3), "cpu_ratio": 0.5 + 0.1 * i,
+                    "change": -0.004 * 3.0 ** (i % 8), "outline_rms": 1e-5 * 2.2 ** (i % 9),
+                    "node_change": -1 if i == 4 else 0}
+            cells.append({k: v for k, v in cell.items() if i != 5 or k not in
+                          ("change", "outline_rms", "node_change")})
+    rule = {"checked": 6, "acts_where_needed": 2, "idle_where_not_needed": 3, "acts_needlessly": 0,
+            "idle_where_needed": 1}
+    return {"vertices": 1000, "tolerance_points": 0.5, "outline_tolerance_mm": 1.0,
+            "fabrics": [{"status": "converged", "drape_coefficient_percent": 15 * i + 10.0}
+                        for i in range(6)] + [{"status": "no drape"}],
+            "ingredients": [{"name": name, "label": "threshold read otherwise"} for name in names],
+            "contact_rule": rule | {"cells": [{"penetration": 1e-4 * 4.0**i, "change": 0.01 * 3.0**i}
+                                              for i in range(6)]},
+            "resolution_rule": rule | {"cells": [
+                {"status": "within_tolerance", "estimate": 0.1 * 2.0**i, "error": 0.03 * 2.0**i,
+                 "same_branch": i > 0} for i in range(6)] + [{"status": "limited_by_solver"}]},
+            "cells": cells}
+
+
+def gradients_result():
+    """Part of what a run of kind gradient_precision writes, made up."""
+    rows = [{"method": method, "series": value, "setting": f"1e-0{i + 1}", "status": "converged",
+             "error": 10.0 ** (-1 - 2 * i), "cpu_seconds": (i + 1) * scale,
+             "memory_bytes": 1e6 * (i + 1)}
+            for method, values, scale in (("adjoint", [0], 0.1), ("sensitivities", [0], 0.12),
+                                          ("differences", [1e-4, 1e-6, 1e-8], 1.0),
+                                          ("unrolled", [0.01, 0.1], 4.0))
+            for value in values for i in range(4)]
+    rows[-1] = {"method": "unrolled", "series": 0.1, "setting": "9", "status": "not solved"}
+    rows[-2]["memory_bytes"] = None
+    return {"reference_disagreement": 1e-8, "vertices": 1000, "parameters": 6, "rows": rows}
+
+
+def snap_result():
+    """The other part."""
+    rows = [{"side": side, "distance": 10.0**-i, "status": "converged", "gradient": -10.0 * i,
+             "smallest_eigenvalue": 1e-4 / i, "adjoint_error": 10.0 ** -(9 - i),
+             "reference_uncertainty": 1e-9,
+             "differences": [{"step": 1e-2, "error": 0.5}, {"step": 1e-4, "error": None}]}
+            for side in ("before", "after") for i in range(1, 6)]
+    rows.append({"side": "after", "distance": 0.3, "status": "the branch was lost"})
+    return {"status": "found", "factor": 1.2345, "end": "limit_point", "rows": rows,
+            "negative_eigenvalues_beyond": 1, "vertex_jump": 2e-3,
+            "last_natural_step_distance": 1e-4}
 
 
 def stability_atlas():
@@ -290,6 +347,15 @@ class Figures(unittest.TestCase):
         page = identifiability.page(identifiability_summary())
         self.check_layout(page)
         self.assertIn("3 fabrics of the measured distribution", self.words(page))
+        page = ablation.page(ablation_result())
+        self.check_layout(page)
+        self.assertIn("does not act where needed 1, acts needlessly 0", self.words(page))
+        page = gradient_precision.page(gradients_result())
+        self.check_layout(page)
+        self.assertIn("Settings that failed: 1", self.words(page))
+        page = snap_gradient.page(snap_result())
+        self.check_layout(page)
+        self.assertIn("1.2345 times", self.words(page))
         self.check_layout(stability.page(stability_atlas()))
         chart = work_precision_chart()
         self.check_layout(work_precision.page(chart))
@@ -304,6 +370,17 @@ class Figures(unittest.TestCase):
             self.assertEqual(drawn.count(stability.style.matplotlib.colors.to_rgba(colour)),
                              cells + 1, outcome)  # one in the legend
 
+    def test_changes_are_without_the_jumps_of_snaps(self):
+        cell = {"change": 2.5, "snap_change": 2.0, "snaps": 1, "outline_rms": 1.234e-3,
+                "node_change": -1}
+        self.assertEqual(ablation.change_words(cell), "+0.50'")
+        self.assertEqual(ablation.rms_words(cell), "1.2\n(−1)")
+
+    def test_ends_of_curves_say_what_became_of_the_runs(self):
+        self.assertEqual(work_precision.end(["converged", "converged"]), ("o", None))
+        self.assertEqual(work_precision.end(["stalled", "out_of_budget"]), ("o", "white"))
+        self.assertEqual(work_precision.end(["converged", "stalled"]), ("x", None))
+
     def test_elastica_of_small_load_is_a_beam(self):
         # c/8 with corrections of order c^3 = 1e-6 and second-order differences
         self.assertAlmostEqual(validation.elastica_drop(0.1) / (0.001 / 8), 1, places=5)
@@ -314,7 +391,10 @@ class Figures(unittest.TestCase):
                                 ("photographs", photographs_summary()),
                                 ("identifiability", identifiability_summary()),
                                 ("work_precision", work_precision_chart()),
-                                ("stability", stability_atlas())):
+                                ("stability", stability_atlas()),
+                                ("ablation", ablation_result()),
+                                ("gradient_precision", gradients_result()),
+                                ("snap_gradient", snap_result())):
             file = self.folder / "summary.json"
             file.write_text(json.dumps(summary))
             done = self.run_script(f"{script}.py", file, "--out", self.folder / script)

@@ -44,6 +44,7 @@ TEST(WorkPrecisionReport, CurvesAreMediansOverRuns) {
       "core", "ours", {made_up_run("converged", 1), made_up_run("converged", 2)}};
   const Json curve = error_curve(compared, "residual", 10);
   EXPECT_EQ(curve["median"].front(), 10);
+  EXPECT_EQ(curve["outcomes"], (Json{"converged", "converged"}));
   EXPECT_EQ(curve["cpu_seconds"].back(), 0.8);  // where the longer run ends
   EXPECT_EQ(curve["high"].back(), 1e-3);
   size_t i = 0;
@@ -81,6 +82,7 @@ TEST(StabilityReport, CountsEveryCellOnce) {
                 {"areal_density", 0.2},
                 {"membrane_to_bending", ratio},
                 {"time_step", step},
+                {"smallest_residual", 1e-9 * ratio},
                 {"outcome", outcome}};
   };
   const Json all =
@@ -89,11 +91,16 @@ TEST(StabilityReport, CountsEveryCellOnce) {
   ASSERT_EQ(all.size(), 1);
   const Json& row = all["xpbd"];
   EXPECT_EQ(row["outcomes"], (Json{{"converged", 2}, {"stalled", 1}, {"diverged", 1}}));
-  EXPECT_EQ(row["membrane_to_bending"]["10000"]["converged"], 1);
-  EXPECT_EQ(row["membrane_to_bending"]["100000"]["cells"], 1);
-  EXPECT_EQ(row["time_step"]["0.001"]["converged"], 0);
-  EXPECT_EQ(row["case"]["needles"]["converged"], 1);
-  EXPECT_NE(sentence("xpbd", row).find("needles 1/1"), std::string::npos);
+  const Json& axes = row["axes"];
+  EXPECT_EQ(axes["membrane_to_bending"]["10000"]["converged"], 1);
+  EXPECT_EQ(axes["membrane_to_bending"]["100000"]["cells"], 1);
+  EXPECT_EQ(axes["time_step"]["0.001"]["converged"], 0);
+  EXPECT_EQ(axes["case"]["needles"]["converged"], 1);
+  const std::string words = sentence("xpbd", row);
+  for (const char* said : {"needles 1/1", "stalled 1 (smallest residuals 0.0001 to 0.0001)",
+                           "always converged at membrane_to_bending 10000, case needles;",
+                           "never at membrane_to_bending 100000, time_step 0.001"})
+    EXPECT_NE(words.find(said), std::string::npos) << said << "\n" << words;
 }
 
 TEST(HardCases, AreWhatTheyAreCalled) {
