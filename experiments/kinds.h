@@ -34,6 +34,7 @@ RunOutcome run_photographs(const Settings& settings, OutputFolder& folder);
 RunOutcome run_identifiability(const Settings& settings, OutputFolder& folder);
 RunOutcome run_work_precision(const Settings& settings, OutputFolder& folder);
 RunOutcome run_stability(const Settings& settings, OutputFolder& folder);
+RunOutcome run_estimation_precision(const Settings& settings, OutputFolder& folder);
 RunOutcome run_branches(const Settings& settings, OutputFolder& folder);
 
 }  // namespace drape

@@ -54,6 +54,8 @@ RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
       return run_work_precision(settings, folder);
     case Kind::stability:
       return run_stability(settings, folder);
+    case Kind::estimation_precision:
+      return run_estimation_precision(settings, folder);
     case Kind::branches:
       return run_branches(settings, folder);
   }

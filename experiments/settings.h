@@ -36,7 +36,8 @@ enum class Kind {
   photographs,
   identifiability,
   work_precision,
-  stability
+  stability,
+  estimation_precision
 };
 
 struct Experiment {
@@ -186,6 +187,8 @@ struct PhotographSettings {
   std::vector<double> warp_angles{0, 45, 90, 135};  ///< [deg]
   double warp_angle_sd = 25;                        ///< [deg]; 0: known
   double scale_log_sd = 0.005;                      ///< 0: known
+  std::vector<double> specimen_radius_mm;           ///< of each file, or one; empty: the scene's
+  double camera_height_mm = 0;                      ///< above the support; 0: orthographic
   PriorKind prior = PriorKind::weight;
 };
 
@@ -246,6 +249,23 @@ struct StabilitySettings {
   std::vector<int> only;   ///< indices of cells; empty: all
 };
 
+/// The ways in which kind = "estimation_precision" fits (fit_methods.h).
+enum class ComparedFit {
+  levenberg_marquardt,
+  bfgs,
+  levenberg_marquardt_differences,
+  bfgs_differences,
+  bobyqa,
+  nelder_mead
+};
+
+struct EstimationPrecisionSettings {
+  int fabrics = 6;
+  int starts = 2;                    ///< of each fabric
+  std::vector<ComparedFit> methods;  ///< empty: all
+  double cpu_seconds = 20;           ///< of a fit at 1000 vertices, in proportion to them [s]
+};
+
 struct Settings {
   Experiment experiment;
   Fabric fabric;
@@ -265,6 +285,7 @@ struct Settings {
   AccuracySettings accuracy;
   WorkPrecisionSettings work_precision;
   StabilitySettings stability;
+  EstimationPrecisionSettings estimation_precision;
   BranchesSettings branches;
   PhotographsSettings photographs;
   IdentifiabilitySettings identifiability;
