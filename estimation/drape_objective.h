@@ -12,21 +12,22 @@
 #include <optional>
 #include <vector>
 
+#include "estimation/fit_objective.h"
 #include "estimation/picture_misfit.h"
 #include "estimation/prior.h"
 
 namespace drape {
 
-class DrapeObjective {
+class DrapeObjective final : public FitObjective {
  public:
   /// max_solves: of all pictures together. Throws std::invalid_argument without a picture, or for a
   /// bad observation or prior.
   DrapeObjective(std::vector<Picture> pictures, ParameterSpace space,
                  const std::optional<Prior>& prior, const MisfitOptions& options, int max_solves);
 
-  int unknowns() const { return unknowns_; }
+  int unknowns() const override { return unknowns_; }
   /// Those of the pictures, kProfileSize each, then those of the priors.
-  int residuals() const;
+  int residuals() const override;
   const ParameterSpace& space() const { return space_; }
   size_t pictures() const { return misfits_.size(); }
   const Picture& picture(size_t i) const { return misfits_[i].picture(); }
@@ -37,10 +38,10 @@ class DrapeObjective {
 
   /// Residuals and, if wanted, their Jacobian (residuals x unknowns). False where a branch is lost
   /// or max_solves are spent.
-  bool residuals_at(const VecX& u, VecX& r, MatX* jacobian);
+  bool residuals_at(const VecX& u, VecX& r, MatX* jacobian) override;
 
   /// J and, by one adjoint solve a picture, its gradient. False likewise.
-  bool cost_at(const VecX& u, double& cost, VecX* gradient);
+  bool cost_at(const VecX& u, double& cost, VecX* gradient) override;
 
   /// The drape of picture i at u; nothing where its branch is lost or max_solves are spent. Valid
   /// until the next call.
@@ -49,9 +50,8 @@ class DrapeObjective {
   Placement placement_at(size_t i, const VecX& u) const;
   /// The nuisances' part of the largest allowed |u|; unbounded for z.
   VecX bounds() const;
-  /// Whether the last drape asked for that was not known yet was refused. A minimiser that shrinks
-  /// its steps because of this has not converged.
-  bool refused() const { return refused_; }
+  /// Whether the last drape asked for that was not known yet was refused.
+  bool refused() const override { return refused_; }
   int solves() const;
 
  private:

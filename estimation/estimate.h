@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "core/contact.h"
+#include "estimation/drape_objective.h"
 #include "estimation/minimise.h"
 #include "estimation/posterior.h"
 

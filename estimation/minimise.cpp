@@ -11,7 +11,7 @@ constexpr double kScalingDamping = 1e-3;  // of the largest diagonal entry of J^
 
 class ProfileResiduals : public ceres::CostFunction {
  public:
-  explicit ProfileResiduals(DrapeObjective& objective) : objective_(objective) {
+  explicit ProfileResiduals(FitObjective& objective) : objective_(objective) {
     set_num_residuals(objective.residuals());
     mutable_parameter_block_sizes()->push_back(objective.unknowns());
   }
@@ -30,13 +30,13 @@ class ProfileResiduals : public ceres::CostFunction {
   }
 
  private:
-  DrapeObjective& objective_;
+  FitObjective& objective_;
 };
 
 /// The cost in scaled unknowns v, u = origin + scaling v.
 class AdjointCost : public ceres::FirstOrderFunction {
  public:
-  AdjointCost(DrapeObjective& objective, VecX origin, MatX scaling, const MinimiseOptions& options)
+  AdjointCost(FitObjective& objective, VecX origin, MatX scaling, const MinimiseOptions& options)
       : objective_(objective),
         origin_(std::move(origin)),
         scaling_(std::move(scaling)),
@@ -56,7 +56,7 @@ class AdjointCost : public ceres::FirstOrderFunction {
   }
 
  private:
-  DrapeObjective& objective_;
+  FitObjective& objective_;
   VecX origin_;
   MatX scaling_;
   const MinimiseOptions& options_;
@@ -65,7 +65,7 @@ class AdjointCost : public ceres::FirstOrderFunction {
 /// L^-T of the damped Gauss-Newton matrix J^T J = L L^T at the start, where the sensitivities are
 /// known anyway: in these units BFGS begins with a Gauss-Newton step instead of one along the
 /// gradient.
-MatX gauss_newton_scaling(DrapeObjective& objective, const VecX& u) {
+MatX gauss_newton_scaling(FitObjective& objective, const VecX& u) {
   VecX r;
   MatX J;
   const Eigen::Index n = u.size();
@@ -89,7 +89,7 @@ class StopAtSufficientCost : public ceres::IterationCallback {
 
 /// What both of Ceres' solvers report.
 template <typename Summary>
-void keep(const Summary& summary, const DrapeObjective& objective, Minimum& minimum) {
+void keep(const Summary& summary, const FitObjective& objective, Minimum& minimum) {
   minimum.initial_cost = summary.initial_cost;
   minimum.cost = summary.final_cost;
   minimum.iterations = static_cast<int>(summary.iterations.size());
@@ -98,7 +98,7 @@ void keep(const Summary& summary, const DrapeObjective& objective, Minimum& mini
   minimum.message = summary.message;
 }
 
-Minimum levenberg_marquardt(DrapeObjective& objective, const VecX& u,
+Minimum levenberg_marquardt(FitObjective& objective, const VecX& u,
                             const MinimiseOptions& options) {
   Minimum minimum;
   minimum.u = u;
@@ -126,7 +126,7 @@ Minimum levenberg_marquardt(DrapeObjective& objective, const VecX& u,
   return minimum;
 }
 
-Minimum bfgs(DrapeObjective& objective, const VecX& u, const MinimiseOptions& options) {
+Minimum bfgs(FitObjective& objective, const VecX& u, const MinimiseOptions& options) {
   Minimum minimum;
   minimum.u = u;
   auto* const cost =  // owned by the problem
@@ -151,7 +151,7 @@ Minimum bfgs(DrapeObjective& objective, const VecX& u, const MinimiseOptions& op
 
 }  // namespace
 
-Minimum minimise(DrapeObjective& objective, const VecX& u, const MinimiseOptions& options) {
+Minimum minimise(FitObjective& objective, const VecX& u, const MinimiseOptions& options) {
   return options.method == FitMethod::bfgs ? bfgs(objective, u, options)
                                            : levenberg_marquardt(objective, u, options);
 }

@@ -1,10 +1,10 @@
-// Ceres on a DrapeObjective: Levenberg-Marquardt with the sensitivity Jacobian, or BFGS with the
-// adjoint gradient.
+// Ceres on the objective of a fit: Levenberg-Marquardt with its Jacobian, or BFGS with its gradient
+// (of a DrapeObjective: by sensitivities, by the adjoint).
 #pragma once
 
 #include <string>
 
-#include "estimation/drape_objective.h"
+#include "estimation/fit_objective.h"
 
 namespace drape {
 
@@ -27,7 +27,7 @@ struct Minimum {
   std::string message;     ///< Ceres' own words
 };
 
-/// Minimises the objective from u, whose drape must be known.
-Minimum minimise(DrapeObjective& objective, const VecX& u, const MinimiseOptions& options);
+/// Minimises the objective from u, where it must have a value.
+Minimum minimise(FitObjective& objective, const VecX& u, const MinimiseOptions& options);
 
 }  // namespace drape

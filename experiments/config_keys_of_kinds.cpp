@@ -135,6 +135,14 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("photograph", "prior", "", kAny, "As estimate.prior; the start comes from the weight.",
       DRAPE_MEMBER(photograph.prior));
 
+  add("photograph", "specimen_radius_mm", "mm", kPositive,
+      "Radius of the specimen in each file, or one for all; [] for scene.specimen_radius.",
+      DRAPE_MEMBER(photograph.specimen_radius_mm));
+  add("photograph", "camera_height_mm", "mm", kNotNegative,
+      "Height of a pinhole camera over the middle of the support, where mm_per_pixel holds; 0 for "
+      "an orthographic view. Drape coefficients of photographs stay as seen.",
+      DRAPE_MEMBER(photograph.camera_height_mm));
+
   add("photographs", "folder", "", kAny,
       "Folder with fabric_NN/specimen_SS_capture_C.jpg; skipped, saying so, where it is missing. "
       "Scale, noise, warp and prior are those of [photograph].",
@@ -293,6 +301,19 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("gradient_precision", "distances", "", {0, 1, false},
       "Distances from the limit point at which the gradient is looked at, of the log stiffness.",
       DRAPE_MEMBER(gradient_precision.distances));
+
+  add("estimation_precision", "fabrics", "", at_least(1),
+      "Number of random fabrics; distribution, drape_coefficient, anisotropy, protocols, "
+      "parameters "
+      "and the wrongness of the starts are those of [estimate].",
+      DRAPE_MEMBER(estimation_precision.fabrics));
+  add("estimation_precision", "starts", "", at_least(1), "First parameters tried for each fabric.",
+      DRAPE_MEMBER(estimation_precision.starts));
+  add("estimation_precision", "methods", "", kAny, "The methods to compare; [] for all.",
+      DRAPE_MEMBER(estimation_precision.methods));
+  add("estimation_precision", "cpu_seconds", "s", kPositive,
+      "CPU time of each fit on 1000 vertices; on other meshes in proportion to their vertices.",
+      DRAPE_MEMBER(estimation_precision.cpu_seconds));
 
   add("branches", "softest", "", kPositive,
       "Factor on the fabric's bending stiffnesses where the sweeps start and end.",

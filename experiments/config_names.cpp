@@ -7,10 +7,23 @@ namespace drape {
 
 template <>
 std::vector<std::string> names_of<Kind>() {
-  return {"drape",          "dataset",    "estimate",    "photograph",
-          "gradient_check", "robustness", "quickstart",  "branches",
-          "validation",     "accuracy",   "photographs", "identifiability",
-          "work_precision", "stability",  "ablation",    "gradient_precision",
+  return {"drape",
+          "dataset",
+          "estimate",
+          "photograph",
+          "gradient_check",
+          "robustness",
+          "quickstart",
+          "branches",
+          "validation",
+          "accuracy",
+          "photographs",
+          "identifiability",
+          "work_precision",
+          "stability",
+          "ablation",
+          "gradient_precision",
+          "estimation_precision",
           "paper"};
 }
 template <>
@@ -81,6 +94,11 @@ std::vector<std::string> names_of<ComparedMethod>() {
   std::vector<std::string> names;
   for (const baselines::Method& m : baselines::methods()) names.emplace_back(m.name);
   return names;
+}
+template <>
+std::vector<std::string> names_of<ComparedFit>() {
+  return {"levenberg_marquardt", "bfgs",   "levenberg_marquardt_differences",
+          "bfgs_differences",    "bobyqa", "nelder_mead"};
 }
 template <>
 std::vector<std::string> names_of<BendingLaw>() {

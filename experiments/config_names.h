@@ -42,6 +42,8 @@ std::vector<std::string> names_of<ComparedMethod>();
 template <>
 std::vector<std::string> names_of<AblatedIngredient>();
 template <>
+std::vector<std::string> names_of<ComparedFit>();
+template <>
 std::vector<std::string> names_of<BendingLaw>();
 template <>
 std::vector<std::string> names_of<BendingThreshold>();

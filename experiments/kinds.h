@@ -36,6 +36,7 @@ RunOutcome run_work_precision(const Settings& settings, OutputFolder& folder);
 RunOutcome run_stability(const Settings& settings, OutputFolder& folder);
 RunOutcome run_ablation(const Settings& settings, OutputFolder& folder);
 RunOutcome run_gradient_precision(const Settings& settings, OutputFolder& folder);
+RunOutcome run_estimation_precision(const Settings& settings, OutputFolder& folder);
 RunOutcome run_branches(const Settings& settings, OutputFolder& folder);
 RunOutcome run_paper(const Settings& settings, OutputFolder& folder);
 

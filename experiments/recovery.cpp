@@ -16,12 +16,13 @@ constexpr double kSharedBranch = 1e-6;  // [m]
 constexpr double kBranchStep = 0.1;     // of a log parameter: small beside the snaps of a drape
 constexpr double kPi = 3.14159265358979323846;
 
-/// The target's own branch at the first parameters of a fit, if there is one, and whether following
-/// it back ends where it began.
-struct BranchTest {
-  std::optional<Equilibrium> start;
-  bool shared = false;
-};
+}  // namespace
+
+Potential as_draped(Potential model, const Record& record, const Scene& scene) {
+  model.set_support(record.stats.contact == "support" ? std::optional(support_contact(scene))
+                                                      : std::nullopt);
+  return model;
+}
 
 BranchTest follow_target(Potential potential, const Record& record, const Fabric& start,
                          const EstimateOptions& options) {
@@ -44,8 +45,6 @@ BranchTest follow_target(Potential potential, const Record& record, const Fabric
   test.shared = back && largest_distance(back->equilibrium.x, record.positions) < kSharedBranch;
   return test;
 }
-
-}  // namespace
 
 Fabric perturbed(const Fabric& truth, const EstimateSettings& settings, std::uint64_t seed) {
   Random random(seed);
@@ -124,10 +123,7 @@ EstimateRecord recover(const Settings& settings, const Potential& model, const R
   const Structure structure =
       record.category.empty() ? Structure::woven : structure_from_category(record.category);
   options.prior = fit_prior(settings, settings.estimate.prior, structure, start);
-  Potential target = model;  // what acted on the target acts on its branch
-  target.set_support(record.stats.contact == "support"
-                         ? std::optional(support_contact(header.scene))
-                         : std::nullopt);
+  const Potential target = as_draped(model, record, header.scene);
   const BranchTest branch = settings.estimate.start == EstimateStart::continued
                                 ? follow_target(target, record, start, options)
                                 : BranchTest{};

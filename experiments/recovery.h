@@ -24,6 +24,18 @@ EstimateOptions estimate_options(const Settings& settings);
 std::optional<Prior> fit_prior(const Settings& settings, PriorKind kind, Structure structure,
                                const Fabric& start);
 
+/// The potential with what acted on the record's drape: it acts on all of its branch.
+Potential as_draped(Potential model, const Record& record, const Scene& scene);
+
+/// The target's own branch at the first parameters of a fit, if there is one, and whether following
+/// it back ends where it began (within 1e-6 m).
+struct BranchTest {
+  std::optional<Equilibrium> start;
+  bool shared = false;
+};
+BranchTest follow_target(Potential potential, const Record& record, const Fabric& start,
+                         const EstimateOptions& options);
+
 /// Estimates the parameters of a record from its profile (or coverage). `model` gives mesh, reading
 /// and gravity. Only start = "continued" uses the record's own equilibrium: where target and start
 /// share a branch (continuing target -> start -> target comes back within 1e-6 m) the fit begins

@@ -39,6 +39,8 @@ RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
       return run_ablation(settings, folder);
     case Kind::gradient_precision:
       return run_gradient_precision(settings, folder);
+    case Kind::estimation_precision:
+      return run_estimation_precision(settings, folder);
     case Kind::paper:
       return run_paper(settings, folder);
     case Kind::branches:

@@ -39,6 +39,7 @@ enum class Kind {
   stability,
   ablation,
   gradient_precision,
+  estimation_precision,
   paper
 };
 
@@ -198,6 +199,8 @@ struct PhotographSettings {
   std::vector<double> warp_angles{0, 45, 90, 135};  ///< [deg]
   double warp_angle_sd = 25;                        ///< [deg]; 0: known
   double scale_log_sd = 0.005;                      ///< 0: known
+  std::vector<double> specimen_radius_mm;           ///< of each file, or one; empty: the scene's
+  double camera_height_mm = 0;                      ///< above the support; 0: orthographic
   PriorKind prior = PriorKind::weight;
 };
 
@@ -280,6 +283,23 @@ struct GradientPrecisionSettings {
   std::vector<double> distances{1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5};
 };
 
+/// The ways in which kind = "estimation_precision" fits (fit_methods.h).
+enum class ComparedFit {
+  levenberg_marquardt,
+  bfgs,
+  levenberg_marquardt_differences,
+  bfgs_differences,
+  bobyqa,
+  nelder_mead
+};
+
+struct EstimationPrecisionSettings {
+  int fabrics = 6;
+  int starts = 2;                    ///< of each fabric
+  std::vector<ComparedFit> methods;  ///< empty: all
+  double cpu_seconds = 20;           ///< of a fit at 1000 vertices, in proportion to them [s]
+};
+
 struct Settings {
   Experiment experiment;
   Fabric fabric;
@@ -302,6 +322,7 @@ struct Settings {
   StabilitySettings stability;
   AblationSettings ablation;
   GradientPrecisionSettings gradient_precision;
+  EstimationPrecisionSettings estimation_precision;
   BranchesSettings branches;
   PhotographsSettings photographs;
   IdentifiabilitySettings identifiability;

@@ -42,7 +42,8 @@ double time_within(const Json& run, const std::string& error, double tolerance) 
   return since;
 }
 
-Json error_curve(const ComparedRuns& compared, const std::string& error, double budget) {
+Json error_curve(const ComparedRuns& compared, const std::string& error, double budget,
+                 double low) {
   Json curve = {{"method", compared.method}, {"label", compared.label}};
   for (const char* name : {"cpu_seconds", "median", "low", "high"}) curve[name] = Json::array();
   curve["outcomes"] = Json::array();
@@ -56,8 +57,8 @@ Json error_curve(const ComparedRuns& compared, const std::string& error, double 
     for (const Json& run : compared.runs) errors.push_back(error_at(run, error, time));
     curve["cpu_seconds"].push_back(time);
     curve["median"].push_back(median(errors));
-    curve["low"].push_back(percentile(errors, 0));
-    curve["high"].push_back(percentile(errors, 100));
+    curve["low"].push_back(percentile(errors, low));
+    curve["high"].push_back(percentile(errors, 100 - low));
     if (time >= std::min(longest, budget)) return curve;
   }
 }

@@ -20,11 +20,11 @@ struct ComparedRuns {
 /// tolerance [s]; infinite if it does not end there.
 double time_within(const nlohmann::ordered_json& run, const std::string& error, double tolerance);
 
-/// Median, least and largest error of the runs at geometrically spaced CPU times up to `budget`;
-/// a run that has ended keeps its last error. Arrays cpu_seconds, median, low, high, and outcomes,
-/// one a run.
+/// Median error of the runs at geometrically spaced CPU times up to `budget`, and the percentiles
+/// `low` and 100 - `low`; a run that has ended keeps its last error. Arrays cpu_seconds, median,
+/// low, high, and outcomes, one a run.
 nlohmann::ordered_json error_curve(const ComparedRuns& compared, const std::string& error,
-                                   double budget);
+                                   double budget, double low = 0);
 
 /// Tolerances of the tables, largest first.
 const std::vector<double>& tolerances(const std::string& error);

@@ -52,6 +52,14 @@ CAPTIONS = {
     ("work_precision", "drape_coefficient_error"):
         "Error of the drape coefficient against CPU time, for every method.",
     ("work_precision", "residual"): "Residual against CPU time, for every method.",
+    ("gradient_precision", "gradients"):
+        "Error of the outline's gradient against CPU time and memory, by four ways to differentiate.",
+    ("gradient_precision", "snap"):
+        "The gradient on both sides of a limit point, where a branch ends in a snap.",
+    ("estimation_precision", "estimation_precision"):
+        "What exact derivatives buy in a fit: outline and parameter error against CPU time.",
+    ("ablation", "ablation"):
+        "What each ingredient of the model changes of a drape, and what it costs.",
     ("stability", "atlas"): "Where every method converges, stalls, diverges or runs out of time.",
 }
 
