@@ -13,7 +13,7 @@ PANELS = (("gradient", "|dDC/ds|, points"), ("smallest_eigenvalue", "smallest ei
 STEPS = (style.START, "#CC79A7", "#009E73", "#56B4E9")
 DASHES = ((4, 1.5), (1, 1.2), (6, 1, 1, 1), (2, 2))
 LOWEST = 1e-11
-WIDTH, HEIGHT, LEFT, TOP = 76, 42, 18, 36
+WIDTH, HEIGHT, LEFT, TOP = 74, 42, 22, 36
 
 
 def page(snap):
