@@ -38,7 +38,8 @@ def page(result):
     for row, ingredient in enumerate(rows):
         figure.text(6, TOP + ROW * (row + 0.5), ingredient["label"], va="center")
     cost(figure, lefts[1] + cell * max(MOST_COLUMNS, len(fabrics)) + GAP, height, rows, result["cells"])
-    for i, (rule, title) in enumerate(RULES):
+    checked = [(rule, title) for rule, title in RULES if result[rule]["checked"]]
+    for i, (rule, title) in enumerate(checked):
         check(figure, LABEL / 2 + 6 + 88 * i, TOP + height + 18, result, rule, title)
     return figure
 
@@ -100,7 +101,8 @@ def paint(axes, column, row, cell, words, value, ends):
                              hatch=None if known and cell["followed"] else "////" if known else None))
     if known:
         axes.text(column + 0.5, row + 0.52, words(cell), ha="center", va="center", fontsize=6,
-                  linespacing=0.9)
+                  linespacing=0.9, bbox=None if cell["followed"] else
+                  dict(facecolor="white", alpha=0.75, linewidth=0, pad=0.6))
 
 
 def cost(figure, left, height, rows, cells):

@@ -35,6 +35,7 @@ def page(result):
                  name, scale, dashes(series, method, value))
         axes.axhline(result["reference_disagreement"], color=style.FAINT, linewidth=0.6)
         axes.set(xscale="log", yscale="log", xlabel=unit)
+        study.few_ticks(axes.xaxis)
         if column == 0:
             axes.set_ylabel("relative error")
         for side in ("top", "right"):

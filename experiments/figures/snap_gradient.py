@@ -13,7 +13,7 @@ PANELS = (("gradient", "|dDC/ds|, points"), ("smallest_eigenvalue", "smallest ei
 STEPS = (style.START, "#CC79A7", "#009E73", "#56B4E9")
 DASHES = ((4, 1.5), (1, 1.2), (6, 1, 1, 1), (2, 2))
 LOWEST = 1e-11
-WIDTH, HEIGHT, LEFT, TOP = 76, 42, 18, 36
+WIDTH, HEIGHT, LEFT, TOP = 74, 42, 22, 36
 
 
 def page(snap):
@@ -42,7 +42,6 @@ def page(snap):
                 at.invert_xaxis()
                 at.set_ylabel(words)
             else:
-                at.yaxis.set_major_formatter(NullFormatter())
                 at.yaxis.set_minor_formatter(NullFormatter())
             if line == len(PANELS) - 1:
                 at.set_xlabel("distance of s before the limit point" if column == 0
@@ -55,7 +54,11 @@ def page(snap):
         low = min(axes[line, column].get_ylim()[0] for column in (0, 1))
         high = max(axes[line, column].get_ylim()[1] for column in (0, 1))
         for column in (0, 1):
-            axes[line, column].set_ylim(low, high)
+            axes[line, column].set_ylim(low / 1.1, 1.1 * high)
+            if PANELS[line][0] == "gradient":
+                study.few_ticks(axes[line, column].yaxis)
+            if column == 1:
+                axes[line, column].yaxis.set_major_formatter(NullFormatter())
     legend(figure, snap, TOP + 3 * (HEIGHT + 8) + 7)
     return figure
 

@@ -3,6 +3,15 @@ import argparse
 import json
 import sys
 
+from matplotlib.ticker import LogLocator, NullLocator
+
+
+def few_ticks(axis):
+    """Ticks of a logarithmic axis that spans little, as plain numbers."""
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(lambda value, _: f"{value:g}")
+    axis.set_minor_locator(NullLocator())
+
 
 def draw(kind, description, page):
     """Command line of a figure: reads a summary of `kind` and saves page(summary).

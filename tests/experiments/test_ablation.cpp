@@ -71,12 +71,12 @@ TEST(Ablation, TheClampFactorIsFollowedThereAndBack) {
 }
 
 TEST(Ablation, AFabricIsFollowedAlongItsPath) {
-  const Settings settings = changed("stretch_stiff");
-  const Json item = ablate(unchanged(), ingredient("stretch_stiff"), make_discretization(settings));
+  const Json item =
+      ablate(unchanged(), ingredient("no_softening"), make_discretization(changed("no_softening")));
   ASSERT_TRUE(item["followed"].get<bool>()) << item.dump();
-  // the end of the path is an equilibrium of the changed fabric: the stretch hardly shows
-  EXPECT_LT(std::abs(item["change"].get<double>() - item["snap_change"].get<double>()), 1);
-  EXPECT_NE(item["change"], 0);
+  const double change = item["change"].get<double>() - item["snap_change"].get<double>();
+  EXPECT_GT(change, 0);  // bent wings get up to 1/0.7 times as stiff
+  EXPECT_LT(change, 10);
 }
 
 TEST(Ablation, ATightToleranceChangesNothing) {

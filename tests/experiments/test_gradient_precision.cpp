@@ -54,7 +54,9 @@ TEST(GradientPrecision, ErrorsFallWithTheSettings) {
 
 TEST(SnapGradient, GrowsTowardsTheEndOfABranchAndStaysRight) {
   Settings settings = small_settings();
-  settings.gradient_precision.snap_to = 30;
+  settings.start.lobes = 6;  // a start whose first snap is no small buckle
+  settings.reading.threshold = BendingThreshold::radius;
+  settings.fabric.s_bu = settings.fabric.s_bv = settings.fabric.s_bh = 0.6;
   Progress progress("snap", 5);
   const Json snap = gradient_at_snap(settings, make_discretization(settings), progress);
   ASSERT_EQ(snap["status"], "found");
