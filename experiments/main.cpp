@@ -17,6 +17,7 @@
 #include "experiments/interrupt.h"
 #include "experiments/isolated.h"
 #include "experiments/kinds.h"
+#include "experiments/photograph_fit.h"
 #include "experiments/start_outline.h"
 #include "experiments/summary.h"
 #include "experiments/tag_report.h"
@@ -76,8 +77,9 @@ void check_inputs(const Settings& settings) {
   const Kind kind = settings.experiment.kind;
   if (settings.start.protocol == StartProtocol::guided) start_profile(settings);
   if (kind == Kind::photograph) {
-    for (const std::filesystem::path& file : settings.photograph.files)
-      read_photograph(file, 1e-3 * settings.photograph.mm_per_pixel, settings.scene);
+    for (size_t i = 0; i < settings.photograph.files.size(); ++i)
+      read_photograph(settings.photograph.files[i], 1e-3 * settings.photograph.mm_per_pixel,
+                      with_specimen(settings, i).scene);
   } else if (kind == Kind::estimate && !settings.estimate.dataset.empty()) {
     const std::filesystem::path& file = settings.estimate.dataset;
     probe(file.string(), [&file] { visit_records(file, [](size_t, const Record&) {}); });

@@ -21,6 +21,7 @@ import branches  # noqa: E402
 import dataset  # noqa: E402
 import drape_sheet  # noqa: E402
 import ensemble  # noqa: E402
+import estimation_precision  # noqa: E402
 import estimate_overlay  # noqa: E402
 import identifiability  # noqa: E402
 import photographs  # noqa: E402
@@ -164,6 +165,17 @@ def work_precision_chart(error="rms_mm"):
         for fabric, softness in enumerate(("stiff", "medium", "soft"))]}
 
 
+def estimation_precision_chart():
+    """What a run of kind estimation_precision writes, made up; one error is not known."""
+    def curve(method, values):
+        return {"method": method, "label": "Levenberg-Marquardt, differences",
+                "cpu_seconds": [0.001, 0.1, 3], "low": values, "median": values, "high": values}
+    errors = {"outline_mm": [3, 0.1, 0], "bending_error": [1, 0.2, None], "shear_error": [None] * 3}
+    return {"fabrics": 3, "starts": 2, "fits": 6, "vertices": 500, "budget_cpu_seconds": 10,
+            "curves": {error: [curve(method, values) for method in estimation_precision.LOOK]
+                       for error, values in errors.items()}}
+
+
 def stability_atlas():
     """What a run of kind stability writes, made up."""
     outcomes = list(stability.OUTCOMES)
@@ -288,6 +300,7 @@ class Figures(unittest.TestCase):
         self.check_layout(page)
         self.assertIn("3 fabrics of the measured distribution", self.words(page))
         self.check_layout(stability.page(stability_atlas()))
+        self.check_layout(estimation_precision.page(estimation_precision_chart()))
         chart = work_precision_chart()
         self.check_layout(work_precision.page(chart))
         self.check_layout(work_precision.page(chart | {"panels": chart["panels"][:1]}))
@@ -311,6 +324,7 @@ class Figures(unittest.TestCase):
                                 ("photographs", photographs_summary()),
                                 ("identifiability", identifiability_summary()),
                                 ("work_precision", work_precision_chart()),
+                                ("estimation_precision", estimation_precision_chart()),
                                 ("stability", stability_atlas())):
             file = self.folder / "summary.json"
             file.write_text(json.dumps(summary))
