@@ -137,6 +137,19 @@ Points2 pull_back(const Points2& polygon, const PixelGrid& grid,
   return dL_dpolygon;
 }
 
+CoverageImage push_forward(const Points2& polygon, const PixelGrid& grid, const Points2& dpolygon) {
+  CoverageImage rate = CoverageImage::Zero(grid.rows, grid.columns);
+  for_all_pieces(polygon, grid, [&](Eigen::Index k, Eigen::Index next, const Piece& piece) {
+    if (piece.column < 0 || piece.column >= grid.columns) return;
+    const double dt = piece.t1 - piece.t0, middle = (piece.t0 + piece.t1) / 2;
+    const Vec2 edge = polygon.row(next) - polygon.row(k);
+    const Vec2 velocity = (1 - middle) * dpolygon.row(k) + middle * dpolygon.row(next);
+    rate(piece.row, piece.column) +=
+        dt / (grid.pixel_size * grid.pixel_size) * velocity.dot(Vec2(edge.y(), -edge.x()));
+  });
+  return rate;
+}
+
 double intersection_over_union(const CoverageImage& a, const CoverageImage& b) {
   if (a.rows() != b.rows() || a.cols() != b.cols()) {
     std::ostringstream message;

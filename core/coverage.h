@@ -29,6 +29,9 @@ CoverageImage coverage(const Points2& polygon, const PixelGrid& grid);
 /// dL/dpolygon (one row a corner) from dL/dcoverage (rows x columns).
 Points2 pull_back(const Points2& polygon, const PixelGrid& grid, const CoverageImage& dL_dcoverage);
 
+/// Rate of the coverage (rows x columns) when the corners move with velocity dpolygon.
+CoverageImage push_forward(const Points2& polygon, const PixelGrid& grid, const Points2& dpolygon);
+
 /// Intersection over union of two coverage images, sum(min) / sum(max).
 double intersection_over_union(const CoverageImage& a, const CoverageImage& b);
 

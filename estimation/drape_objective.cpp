@@ -39,7 +39,9 @@ DrapeObjective::DrapeObjective(std::vector<Picture> pictures, ParameterSpace spa
 }
 
 int DrapeObjective::residuals() const {
-  return kProfileSize * static_cast<int>(misfits_.size()) + static_cast<int>(prior_weight_.rows());
+  int count = static_cast<int>(prior_weight_.rows());
+  for (const PictureMisfit& misfit : misfits_) count += misfit.residual_count();
+  return count;
 }
 
 void DrapeObjective::start_from(size_t i, const Potential& potential, BranchPoint point,
@@ -81,6 +83,7 @@ bool DrapeObjective::residuals_at(const VecX& u, VecX& r, MatX* jacobian) {
   const int p = space_.size();
   r.resize(residuals());
   if (jacobian != nullptr) jacobian->setZero(residuals(), unknowns());
+  Eigen::Index row = 0;
   for (size_t i = 0; i < misfits_.size(); ++i) {
     const BranchPoint* drape = drape_at(i, u);
     if (drape == nullptr) return false;
@@ -88,13 +91,14 @@ bool DrapeObjective::residuals_at(const VecX& u, VecX& r, MatX* jacobian) {
     MatX own_jacobian;
     misfits_[i].residuals(*drape, nuisances_of(i, u), own,
                           jacobian != nullptr ? &own_jacobian : nullptr);
-    const Eigen::Index row = static_cast<Eigen::Index>(i) * kProfileSize;
-    r.segment(row, kProfileSize) = own;
-    if (jacobian == nullptr) continue;
-    const int nuisances = misfits_[i].nuisances();
-    jacobian->block(row, 0, kProfileSize, p) = own_jacobian.leftCols(p);
-    jacobian->block(row, first_nuisance_[i], kProfileSize, nuisances) =
-        own_jacobian.rightCols(nuisances);
+    r.segment(row, own.size()) = own;
+    if (jacobian != nullptr) {
+      const int nuisances = misfits_[i].nuisances();
+      jacobian->block(row, 0, own.size(), p) = own_jacobian.leftCols(p);
+      jacobian->block(row, first_nuisance_[i], own.size(), nuisances) =
+          own_jacobian.rightCols(nuisances);
+    }
+    row += own.size();
   }
   r.tail(prior_weight_.rows()) = prior_weight_ * (u - prior_mean_);
   if (jacobian != nullptr) jacobian->bottomRows(prior_weight_.rows()) = prior_weight_;

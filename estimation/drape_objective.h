@@ -26,7 +26,7 @@ class DrapeObjective final : public FitObjective {
                  const std::optional<Prior>& prior, const MisfitOptions& options, int max_solves);
 
   int unknowns() const override { return unknowns_; }
-  /// Those of the pictures, kProfileSize each, then those of the priors.
+  /// Those of the pictures, then those of the priors.
   int residuals() const override;
   const ParameterSpace& space() const { return space_; }
   size_t pictures() const { return misfits_.size(); }

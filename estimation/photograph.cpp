@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/contour.h"
 #include "core/profile.h"
 
 namespace drape {
@@ -28,6 +29,9 @@ constexpr double kScaleTolerance = 0.03;
 constexpr double kLeastContrast = 32;
 /// Below about 18 pixels of radius a fold is narrower than a pixel.
 constexpr int kLeastPixels = 1000;
+/// Widths of an edge, from a tenth covered to nine tenths, up to which it is sharp: that many
+/// pixels, or that share of the silhouette's mean radius. Masks of real drapes have 0.5 to 2.
+constexpr double kSharpEdge = 4, kBlurredShare = 0.05;
 /// Grey values further than this from the silhouette's edge are noise.
 constexpr int kBand = 2;  // [pixels]
 /// Reentrant stretches of a ray shorter than this are not seen.
@@ -160,6 +164,19 @@ cv::Mat single_blob(const std::filesystem::path& file, const cv::Mat& share) {
   return blob;
 }
 
+/// Refuses an edge that fades over many pixels: where it lies is then a guess.
+void check_sharpness(const std::filesystem::path& file, const cv::Mat& share, const cv::Mat& blob) {
+  cv::Mat inner;
+  cv::erode(blob, inner, cv::getStructuringElement(cv::MORPH_CROSS, cv::Size(3, 3)));
+  const double rim = cv::countNonZero(blob & ~inner);
+  const double width = cv::countNonZero((share > 0.1) & (share < 0.9)) / rim;
+  const double largest =
+      std::max(kSharpEdge, kBlurredShare * std::sqrt(cv::countNonZero(blob) / kPi));
+  if (width > largest)
+    fail(file, text("the image is blurred: the silhouette's edge is ", width,
+                    " pixels wide; at most ", largest, " are expected"));
+}
+
 /// Zero outside of the blob and one inside; in between, in a narrow band, what the grey values say.
 CoverageImage clean_coverage(const cv::Mat& share, const cv::Mat& blob) {
   const cv::Mat kernel =
@@ -228,6 +245,7 @@ Photograph read_photograph(const std::filesystem::path& file, double metres_per_
   const cv::Mat grey = read_grey(file);
   const cv::Mat share = covered_share(file, grey);
   const cv::Mat blob = single_blob(file, share);
+  check_sharpness(file, share, blob);
 
   Photograph photo;
   photo.metres_per_pixel = metres_per_pixel;
@@ -265,6 +283,7 @@ Photograph read_photograph(const std::filesystem::path& file, double metres_per_
   photo.grid.origin = metres_per_pixel * Vec2(-0.5 - photo.centroid_pixels.x(),
                                               photo.centroid_pixels.y() + 0.5 - photo.height);
 
+  photo.boundary = contour(photo.coverage, photo.grid);
   photo.outline.resize(kOutlineSize, 2);
   photo.profile.resize(kProfileSize);
   int reentrant = 0;

@@ -28,6 +28,7 @@ inline constexpr int kOutlineSize = 1440;
 /// A silhouette in the frame of its area centroid: +x right, +y up in the image, metres.
 struct Photograph {
   Points2 outline;       ///< outermost crossing a direction, counter-clockwise (kOutlineSize) [m]
+  Points2 boundary;      ///< all of it, the pockets behind a lobe included, counter-clockwise [m]
   VecX profile;          ///< outermost radius at whole degrees (kProfileSize) [m]
   Vec2 centroid_pixels;  ///< area centroid (column, row); a pixel's centre has whole numbers
   double metres_per_pixel;  ///< as given
@@ -43,8 +44,8 @@ struct Photograph {
 /// a thousandth of the silhouette's area are specks and ignored. Throws PhotographError on: a scale
 /// that is not positive; a file that is missing, empty, cut short or no image; a uniform image; a
 /// silhouette that touches the border, has holes, comes in several blobs or in fewer than 1000
-/// pixels; an area that is not between the support's and the specimen's, 3 % of scale allowed for;
-/// a centroid outside of the silhouette.
+/// pixels; a blurred edge; an area that is not between the support's and the specimen's, 3 % of
+/// scale allowed for; a centroid outside of the silhouette.
 Photograph read_photograph(const std::filesystem::path& file, double metres_per_pixel,
                            const Scene& scene);
 

@@ -1,5 +1,6 @@
 #include "estimation/picture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +14,7 @@ constexpr double kCentreUnit = 1e-3;    // [m]
 constexpr double kCentreSd = 5;         // [mm]
 constexpr double kLargestCentre = 10;   // [mm]
 constexpr double kLargestTurn = 0.785;  // [rad]; beyond, another start is nearer
+constexpr int kDepthIterations = 20;    // each gains a factor of depth over height
 
 enum class Nuisance { centre_x, centre_y, weft_angle, log_scale };
 
@@ -39,6 +41,23 @@ Eigen::Matrix2d seen_from_drape(const Placement& placement) {
          Eigen::Rotation2Dd(placement.weft_angle).toRotationMatrix();
 }
 
+/// The profile that an orthographic view would show where the rim hangs from the support along
+/// straight generators.
+VecX orthographic_profile(const OutlineObservation& seen, const Scene& scene) {
+  if (seen.camera.orthographic()) return seen.profile;
+  const double overhang = scene.specimen_radius - scene.support_radius;
+  VecX profile = seen.profile;
+  for (double& radius : profile) {
+    const double apparent = radius;
+    for (int i = 0; i < kDepthIterations; ++i) {
+      const double reach = std::clamp(radius - scene.support_radius, 0.0, overhang);
+      const double depth = std::sqrt(overhang * overhang - reach * reach);
+      radius = std::min(apparent * (1 + depth / seen.camera.height), scene.specimen_radius);
+    }
+  }
+  return profile;
+}
+
 }  // namespace
 
 int OutlineObservation::nuisances() const { return static_cast<int>(nuisances_of(*this).size()); }
@@ -55,6 +74,8 @@ void validate(const OutlineObservation& seen) {
   else if (!(seen.weft_angle_sd >= 0) || !(seen.scale_log_sd >= 0))
     wrong << "the standard deviations of weft angle and scale are " << seen.weft_angle_sd << " and "
           << seen.scale_log_sd << "; must be >= 0";
+  else if (!(seen.camera.height > 0))
+    wrong << "the camera is " << seen.camera.height << " m above the support; must be > 0";
   if (!wrong.str().empty()) throw std::invalid_argument(wrong.str());
 }
 
@@ -130,10 +151,10 @@ Points2 nuisance_velocity(const OutlineObservation& seen, const Placement& place
   return velocity;
 }
 
-Guide guide_towards(const OutlineObservation& seen, const Placement& placement, int harmonic_count,
-                    double kappa) {
+Guide guide_towards(const OutlineObservation& seen, const Scene& scene, const Placement& placement,
+                    int harmonic_count, double kappa) {
   // r(alpha) in the drape's axes is exp(s) r_seen(alpha + phi)
-  Harmonics radius = harmonics(seen.profile, harmonic_count);
+  Harmonics radius = harmonics(orthographic_profile(seen, scene), harmonic_count);
   for (Eigen::Index k = 0; k < radius.a.size(); ++k) {
     const Vec2 turned = std::exp(placement.log_scale) *
                         (Eigen::Rotation2Dd(-static_cast<double>(k) * placement.weft_angle) *

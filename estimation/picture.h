@@ -3,13 +3,15 @@
 //
 // A corner Q of the drape's outline (in the axes of the fabric: +x weft, +y warp) is seen at
 //   P = exp(-s) R(phi) (Q - c)
-// in the picture: c is the picture's origin in the drape's frame, phi the direction of the weft in
-// the picture, exp(s) true length over length by the nominal scale. What is not known of (c, phi,
-// s) is estimated along with the fabric, each with a Gaussian prior.
+// in the picture, Q as the camera sees it (core/camera.h): c is the picture's origin in the drape's
+// frame, phi the direction of the weft in the picture, exp(s) true length over length by the
+// nominal scale. What is not known of (c, phi, s) is estimated along with the fabric, each with a
+// Gaussian prior.
 #pragma once
 
 #include <optional>
 
+#include "core/camera.h"
 #include "core/coverage.h"
 #include "core/equilibrium.h"
 #include "core/guide.h"
@@ -26,6 +28,9 @@ struct OutlineObservation {
   int noise_harmonics = 30;  ///< the errors of the radii fill the harmonics 0 to this one
   PixelGrid grid;            ///< of `coverage`
   CoverageImage coverage;    ///< needed by the coverage loss only
+  Points2 outline;           ///< closed polygon, needed by the signed-distance loss only [m]
+
+  Camera camera;
 
   bool centre_known = true;  ///< the origin is the axis of the support; else within 5 mm (1 sd)
   double weft_angle = 0;     ///< phi, counter-clockwise from the picture's +x [rad]
@@ -74,8 +79,9 @@ VecX nuisance_bounds(const OutlineObservation& seen);
 Points2 nuisance_velocity(const OutlineObservation& seen, const Placement& placement,
                           const Points2& points, int k);
 
-/// The guide that pulls the drape towards the outline where the picture lies.
-Guide guide_towards(const OutlineObservation& seen, const Placement& placement, int harmonic_count,
-                    double kappa);
+/// The guide that pulls the drape towards the outline where the picture lies. Under a pinhole the
+/// rim is taken to hang as deep as straight generators of the specimen would.
+Guide guide_towards(const OutlineObservation& seen, const Scene& scene, const Placement& placement,
+                    int harmonic_count, double kappa);
 
 }  // namespace drape

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "adjoint/adjoint.h"
-#include "adjoint/loss.h"
+#include "core/coverage.h"
+#include "core/profile.h"
+#include "core/signed_distance.h"
 
 namespace drape {
 namespace {
@@ -25,35 +29,13 @@ RobustMiss robust(double e, double threshold) {
   return {std::copysign(value, e), threshold / value};
 }
 
-/// The residuals of a profile and their slopes dr/drho.
-struct ProfileResiduals {
-  VecX r, slope;
-};
-
-ProfileResiduals profile_residuals(const Profile& profile, const OutlineObservation& seen,
-                                   double huber) {
-  const double scale = std::sqrt(1.0 * seen.independent_values() / kProfileSize);
-  ProfileResiduals result{VecX(kProfileSize), VecX(kProfileSize)};
-  for (int i = 0; i < kProfileSize; ++i) {
-    const RobustMiss miss = robust((profile.radius[i] - seen.profile[i]) / seen.noise, huber);
-    result.r[i] = scale * miss.value;
-    result.slope[i] = scale * miss.derivative / seen.noise;
-  }
-  return result;
-}
-
-/// The outline as its picture shows it; its corners are those of the drape's.
-Outline placed(const Outline& outline, const Placement& placement) {
-  Outline seen = outline;
-  seen.points = placement.seen(outline.points);
-  return seen;
-}
-
 }  // namespace
 
-struct PictureMisfit::OutlineCost {
-  double value;
-  Points2 dJ_dpoints;
+/// The residuals of an outline as seen, and the maps of their derivatives.
+struct PictureMisfit::Residuals {
+  VecX r;
+  std::function<VecX(const Points2& velocity)> push_forward;
+  std::function<Points2(const VecX& dL_dr)> pull_back;
 };
 
 PictureMisfit::PictureMisfit(Picture picture, const MisfitOptions& options)
@@ -61,7 +43,21 @@ PictureMisfit::PictureMisfit(Picture picture, const MisfitOptions& options)
       options_(options),
       nuisances_(picture_.seen.nuisances()),
       potential_(picture_.model) {
-  validate(picture_.seen);
+  const OutlineObservation& seen = picture_.seen;
+  validate(seen);
+  if (options.loss == OutlineLoss::coverage &&
+      (seen.coverage.rows() != seen.grid.rows || seen.coverage.cols() != seen.grid.columns))
+    throw std::invalid_argument("the coverage loss needs a coverage image of the size of its grid");
+  if (options.loss == OutlineLoss::signed_distance) {
+    if (seen.outline.rows() < 3)
+      throw std::invalid_argument("the signed-distance loss needs an observed outline");
+    observed_ = equally_spaced(seen.outline, kProfileSize);
+  }
+}
+
+int PictureMisfit::residual_count() const {
+  return options_.loss == OutlineLoss::coverage ? static_cast<int>(picture_.seen.coverage.size())
+                                                : kProfileSize;
 }
 
 void PictureMisfit::start_from(const Potential& potential, BranchPoint point,
@@ -90,64 +86,102 @@ const BranchPoint* PictureMisfit::drape_at(const ParameterSpace& space, const Ve
   return &known_.back();
 }
 
+PictureMisfit::Residuals PictureMisfit::residuals_of(const Points2& points) const {
+  const OutlineObservation& seen = picture_.seen;
+  if (options_.loss == OutlineLoss::coverage) {
+    // a radial miss d all round costs 1/2 N (d / noise)^2 in the profile; in the image it covers
+    // d 2 pi r
+    const double scale =
+        seen.grid.pixel_size * std::sqrt(seen.independent_values() /
+                                         (seen.noise * 2 * std::numbers::pi * seen.profile.mean()));
+    const CoverageImage miss = scale * (coverage(points, seen.grid) - seen.coverage);
+    return {miss.reshaped<Eigen::RowMajor>(),
+            [&seen, points, scale](const Points2& velocity) -> VecX {
+              return scale * push_forward(points, seen.grid, velocity).reshaped<Eigen::RowMajor>();
+            },
+            [&seen, points, scale](const VecX& dL_dr) -> Points2 {
+              return pull_back(
+                  points, seen.grid,
+                  scale * dL_dr.reshaped<Eigen::RowMajor>(seen.grid.rows, seen.grid.columns));
+            }};
+  }
+  const auto scaled = [&](const VecX& misses) {
+    const double scale = std::sqrt(1.0 * seen.independent_values() / kProfileSize);
+    std::pair<VecX, VecX> result{VecX(kProfileSize), VecX(kProfileSize)};  // r and dr/dmiss
+    for (int i = 0; i < kProfileSize; ++i) {
+      const RobustMiss miss = robust(misses[i] / seen.noise, options_.huber);
+      result.first[i] = scale * miss.value;
+      result.second[i] = scale * miss.derivative / seen.noise;
+    }
+    return result;
+  };
+  if (options_.loss == OutlineLoss::signed_distance) {
+    const SignedDistances distances = signed_distances(points, observed_);
+    const auto [r, slope] = scaled(distances.distance);
+    return {r,
+            [distances, slope = slope](const Points2& velocity) -> VecX {
+              return slope.cwiseProduct(push_forward(distances, velocity));
+            },
+            [distances, points, slope = slope](const VecX& dL_dr) -> Points2 {
+              return pull_back(distances, points, slope.cwiseProduct(dL_dr));
+            }};
+  }
+  const Profile profile = radial_profile(points);
+  const auto [r, slope] = scaled(profile.radius - seen.profile);
+  return {r,
+          [profile, points, slope = slope](const Points2& velocity) -> VecX {
+            return slope.cwiseProduct(push_forward(profile, points, Vec2::Zero(), velocity));
+          },
+          [profile, points, slope = slope](const VecX& dL_dr) -> Points2 {
+            return pull_back(profile, points, Vec2::Zero(), slope.cwiseProduct(dL_dr));
+          }};
+}
+
 void PictureMisfit::residuals(const BranchPoint& drape, const VecX& v, VecX& r,
                               MatX* jacobian) const {
-  const VecX& x = drape.equilibrium.x;
+  const Camera& camera = picture_.seen.camera;
+  const VecX x = camera.seen(drape.equilibrium.x);
   const Placement place = placement(picture_.seen, v);
   const Outline outline = trace_outline(potential_.mesh(), picture_.scene, x);
   const Points2 points = place.seen(outline.points);
-  const Profile profile = radial_profile(points);
-  ProfileResiduals residuals = profile_residuals(profile, picture_.seen, options_.huber);
-  r = std::move(residuals.r);
+  const Residuals seen = residuals_of(points);
+  r = seen.r;
   if (jacobian == nullptr) return;
 
   const Eigen::Index p = drape.dx_dz.cols();
-  jacobian->resize(kProfileSize, p + nuisances_);
-  const auto rate = [&](const Points2& velocity) -> VecX {
-    return residuals.slope.cwiseProduct(push_forward(profile, points, Vec2::Zero(), velocity));
-  };
-  for (Eigen::Index i = 0; i < p; ++i)
-    jacobian->col(i) = rate(place.push_forward(push_forward(outline, x, drape.dx_dz.col(i))));
-  for (int k = 0; k < nuisances_; ++k)
-    jacobian->col(p + k) = rate(nuisance_velocity(picture_.seen, place, points, k));
-}
-
-PictureMisfit::OutlineCost PictureMisfit::outline_cost(const Outline& seen) const {
-  const OutlineObservation& observed = picture_.seen;
-  if (options_.loss == OutlineLoss::profile) {
-    const Profile profile = radial_profile(seen.points);
-    const auto [r, slope] = profile_residuals(profile, observed, options_.huber);
-    return {0.5 * r.squaredNorm(),
-            pull_back(profile, seen.points, Vec2::Zero(), r.cwiseProduct(slope))};
+  jacobian->resize(r.size(), p + nuisances_);
+  for (Eigen::Index i = 0; i < p; ++i) {
+    const VecX dx = camera.push_forward(drape.equilibrium.x, drape.dx_dz.col(i));
+    jacobian->col(i) = seen.push_forward(place.push_forward(push_forward(outline, x, dx)));
   }
-  // a radial miss d all round costs 1/2 N (d / noise)^2 in the profile; in the image it covers
-  // d 2 pi r
-  const double scale = observed.independent_values() /
-                       (observed.noise * 2 * std::numbers::pi * observed.profile.mean());
-  const Loss loss = coverage_loss(seen, observed.grid, observed.coverage);
-  return {scale * loss.value, scale * loss.dL_dpoints};
+  for (int k = 0; k < nuisances_; ++k)
+    jacobian->col(p + k) = seen.push_forward(nuisance_velocity(picture_.seen, place, points, k));
 }
 
 double PictureMisfit::cost(const ParameterSpace& space, const BranchPoint& drape, const VecX& v,
                            VecX* gradient) {
-  const VecX& x = drape.equilibrium.x;
+  const Camera& camera = picture_.seen.camera;
+  const VecX x = camera.seen(drape.equilibrium.x);
   const Placement place = placement(picture_.seen, v);
   const Outline outline = trace_outline(potential_.mesh(), picture_.scene, x);
-  const Outline seen = placed(outline, place);
-  const OutlineCost cost = outline_cost(seen);
-  if (gradient == nullptr) return cost.value;
+  const Points2 points = place.seen(outline.points);
+  const Residuals seen = residuals_of(points);
+  const double value = 0.5 * seen.r.squaredNorm();
+  if (gradient == nullptr) return value;
 
+  const Points2 dJ_dpoints = seen.pull_back(seen.r);
+  const VecX dJ_dseen = pull_back(outline, x, place.pull_back(dJ_dpoints));
   potential_.set_fabric(space.decode(drape.z));
-  const ParameterVector dJ_dp = adjoint_gradient(
-      potential_, drape.equilibrium, pull_back(outline, x, place.pull_back(cost.dJ_dpoints)));
+  const ParameterVector dJ_dp = adjoint_gradient(potential_, drape.equilibrium,
+                                                 camera.pull_back(drape.equilibrium.x, dJ_dseen));
   const VecX dp_dz = space.derivative(drape.z);
   gradient->resize(space.size() + nuisances_);
   for (int i = 0; i < space.size(); ++i)
     (*gradient)[i] = dJ_dp[static_cast<int>(space.parameters[static_cast<size_t>(i)])] * dp_dz[i];
   for (int k = 0; k < nuisances_; ++k)
     (*gradient)[space.size() + k] =
-        cost.dJ_dpoints.cwiseProduct(nuisance_velocity(picture_.seen, place, seen.points, k)).sum();
-  return cost.value;
+        dJ_dpoints.cwiseProduct(nuisance_velocity(picture_.seen, place, points, k)).sum();
+  return value;
 }
 
 }  // namespace drape

@@ -5,8 +5,10 @@
 //
 // over the 360 directions of the profile, N the independent values among them; psi is the identity
 // or, for outlines with outliers, makes r^2 Huber's loss. The coverage loss has the same scale: its
-// pixels are weighted so that a uniform radial miss costs what it costs in the profile. Every drape
-// is reached along its branch from the nearest drape known (continuation.h).
+// pixels are weighted so that a uniform radial miss costs what it costs in the profile; there is a
+// residual a pixel. In the signed-distance loss the distances of 360 points of the observed
+// outline, at equal steps of its length, from the drape's (signed_distance.h) take the place of the
+// radii. Every drape is reached along its branch from the nearest drape known (continuation.h).
 #pragma once
 
 #include <vector>
@@ -17,11 +19,11 @@
 
 namespace drape {
 
-enum class OutlineLoss { profile, coverage };
+enum class OutlineLoss { profile, coverage, signed_distance };
 
 struct MisfitOptions {
   OutlineLoss loss = OutlineLoss::profile;
-  /// Misses of the profile beyond this many standard deviations count linearly; 0: none.
+  /// Misses of a radius or distance beyond this many standard deviations count linearly; 0: none.
   double huber = 0;
 };
 
@@ -32,6 +34,7 @@ class PictureMisfit {
 
   const Picture& picture() const { return picture_; }
   int nuisances() const { return nuisances_; }
+  int residual_count() const;
 
   /// The only drape known from here on; clears what was known before. `potential` carries the guide
   /// under which it is in equilibrium. From here on branches are followed as `continuation` says.
@@ -42,7 +45,7 @@ class PictureMisfit {
   /// false. Valid until the next call.
   const BranchPoint* drape_at(const ParameterSpace& space, const VecX& z, bool may_solve);
 
-  /// The residuals of a drape (kProfileSize) and, if wanted, their Jacobian over (z, v).
+  /// The residuals of a drape (residual_count) and, if wanted, their Jacobian over (z, v).
   void residuals(const BranchPoint& drape, const VecX& v, VecX& r, MatX* jacobian) const;
 
   /// J of a drape and, if wanted, its gradient over (z, v) by one adjoint solve.
@@ -51,11 +54,12 @@ class PictureMisfit {
   const ContinuationCost& work() const { return work_; }
 
  private:
-  struct OutlineCost;
-  OutlineCost outline_cost(const Outline& seen) const;
+  struct Residuals;
+  Residuals residuals_of(const Points2& seen) const;
 
   Picture picture_;
   MisfitOptions options_;
+  Points2 observed_;  // points of the signed-distance loss
   int nuisances_;
   Potential potential_;
   ContinuationOptions continuation_;

@@ -34,8 +34,8 @@ void StagedFit::set_unknowns(const VecX& u) {
 }
 
 Guide StagedFit::guide_of(size_t i, double kappa) const {
-  return guide_towards(picture(i).seen, objective_.placement_at(i, state_.u), guide_harmonics_,
-                       kappa);
+  return guide_towards(picture(i).seen, picture(i).scene, objective_.placement_at(i, state_.u),
+                       guide_harmonics_, kappa);
 }
 
 bool StagedFit::lay_along(const GuidedStart& start) {
@@ -167,8 +167,8 @@ bool StagedFit::keep_drapes(const VecX& u) {
 }
 
 VecX StagedFit::profile_of(size_t i) const {
-  const Outline outline =
-      trace_outline(potentials_[i].mesh(), picture(i).scene, state_.pictures[i].equilibrium.x);
+  const VecX x = picture(i).seen.camera.seen(state_.pictures[i].equilibrium.x);
+  const Outline outline = trace_outline(potentials_[i].mesh(), picture(i).scene, x);
   return radial_profile(objective_.placement_at(i, state_.u).seen(outline.points)).radius;
 }
 

@@ -130,8 +130,9 @@ std::string list_text(const std::vector<std::string>& entries) {
 
 std::optional<CommandLine> parse_command_line(int argc, const char* const* argv) {
   CommandLine line;
-  std::string file, out, threads, query, mm_per_pixel, density, warp_angle, dataset, shard;
-  std::vector<std::string> sets, records, photos;
+  std::string file, out, threads, query, mm_per_pixel, density, warp_angle, camera_height, dataset,
+      shard;
+  std::vector<std::string> sets, records, photos, radii;
 
   CLI::App app("Drape: fabric parameters in, drapes out; silhouettes in, fabric parameters out.",
                "drape");
@@ -186,6 +187,16 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
                    "Direction of the warp, degrees counter-clockwise from the right; without it "
                    "several are tried")
       ->type_name("DEG")
+      ->needs(photo_option);
+  estimate
+      ->add_option("--specimen-radius-mm", radii,
+                   "Radius of the specimen in each photograph, or one for all")
+      ->type_name("MM")
+      ->needs(photo_option);
+  estimate
+      ->add_option("--camera-height-mm", camera_height,
+                   "Height of the camera over the support; without it the view is orthographic")
+      ->type_name("MM")
       ->needs(photo_option);
   CLI::Option* dataset_option =
       estimate->add_option("--dataset", dataset, "A results.h5 with observations")
@@ -243,6 +254,10 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   if (!dataset.empty()) assign("experiment.kind", "estimate", "--dataset");
   assign("photograph.mm_per_pixel", mm_per_pixel, "--mm-per-pixel");
   assign("photograph.areal_density", density, "--density");
+  if (!radii.empty())
+    line.assignments.push_back(
+        {"photograph.specimen_radius_mm", list_text(radii), "--specimen-radius-mm"});
+  assign("photograph.camera_height_mm", camera_height, "--camera-height-mm");
   if (!warp_angle.empty()) {
     assign("photograph.warp_angles", "[" + warp_angle + "]", "--warp-angle");
     assign("photograph.warp_angle_sd", "0", "--warp-angle");

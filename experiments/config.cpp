@@ -8,6 +8,7 @@
 #include <system_error>
 #include <tuple>
 
+#include "experiments/config_checks.h"
 #include "experiments/config_keys.h"
 #include "experiments/config_text.h"
 #include "experiments/spelling.h"
@@ -278,7 +279,6 @@ void check_together(const Loaded& loaded, const std::string& name) {
     const auto origin = loaded.origins.find(key);
     throw ConfigError((origin == loaded.origins.end() ? name : origin->second) + ": " + message);
   };
-  const Kind kind = settings.experiment.kind;
   if (!loaded.origins.contains("experiment.kind"))
     refuse("experiment.kind",
            "experiment.kind is missing; must be " + allowed_text(*find_key("experiment", "kind")));
@@ -299,65 +299,7 @@ void check_together(const Loaded& loaded, const std::string& name) {
       if (!file.empty() && !std::filesystem::is_regular_file(file, error))
         refuse(key.full_name(), key.full_name() + ": there is no file " + file);
   }
-  if (kind == Kind::photograph) {
-    if (settings.photograph.files.empty())
-      refuse("experiment.kind", "a photograph needs photograph.files");
-    if (!(settings.photograph.mm_per_pixel > 0))
-      refuse("photograph.mm_per_pixel", "a photograph needs photograph.mm_per_pixel > 0");
-    if (!(settings.photograph.areal_density > 0))
-      refuse("photograph.areal_density", "a photograph needs photograph.areal_density > 0 kg/m^2");
-  }
-  if (kind == Kind::photographs) {
-    if (settings.photographs.folder.empty())
-      refuse("experiment.kind", "photographs need photographs.folder");
-    if (!(settings.photograph.mm_per_pixel > 0))
-      refuse("photograph.mm_per_pixel", "photographs need photograph.mm_per_pixel > 0");
-    if (settings.photographs.models.empty())
-      refuse("photographs.models", "photographs.models must name a model");
-    if (settings.photographs.weighed.size() != settings.photographs.densities.size())
-      refuse("photographs.densities",
-             "photographs.densities must hold one density for each of "
-             "photographs.weighed");
-  }
-  if (settings.dataset.shard > settings.dataset.shards)
-    refuse("dataset.shard", "dataset.shard must be 1 to dataset.shards");
-  if (!settings.dataset.table.empty() && !settings.dataset.parameters.empty())
-    refuse("dataset.parameters", "dataset.table and dataset.parameters exclude each other");
-  if (kind == Kind::paper && settings.paper.configs.empty())
-    refuse("experiment.kind", "a paper needs paper.configs, the experiments to collect");
-  if (kind == Kind::quickstart && settings.quickstart.table.empty())
-    refuse("experiment.kind", "the quickstart needs quickstart.table");
-  if (settings.start.protocol == StartProtocol::guided &&
-      settings.start.outline.empty() == settings.start.dataset.empty())
-    refuse("start.protocol",
-           "a guided start needs either start.outline or start.dataset, and not both");
-  if (settings.start.protocol == StartProtocol::ensemble) try {
-      ensemble_starts(settings.start.ensemble);
-    } catch (const std::invalid_argument& error) {
-      refuse("start.protocol", error.what());
-    }
-  if (!settings.mesh.vertices && kind != Kind::drape)
-    refuse("mesh.vertices",
-           "mesh.vertices = \"auto\" is only for kind \"drape\"; this kind of experiment needs a "
-           "count, as "
-           "all that it compares is on one mesh");
-  if (!settings.mesh.vertices && settings.start.protocol == StartProtocol::ensemble)
-    refuse("mesh.vertices",
-           "mesh.vertices = \"auto\" follows one drape; an ensemble needs a count");
-  if (kind == Kind::branches && !(settings.branches.softest < settings.branches.stiffest))
-    refuse("branches.softest", "branches.softest must be less than branches.stiffest");
-  for (const auto& [key, range] :
-       {std::pair{"estimate.drape_coefficient", settings.estimate.drape_coefficient},
-        {"estimate.anisotropy", settings.estimate.anisotropy}})
-    if (range.size() != 2 || !(range[0] < range[1]))
-      refuse(key, std::string(key) + " must be two values, from less than to");
-  const bool only_forward = kind == Kind::drape || kind == Kind::dataset ||
-                            kind == Kind::robustness || kind == Kind::validation ||
-                            kind == Kind::accuracy || kind == Kind::work_precision ||
-                            kind == Kind::stability;
-  if (settings.reading.law == BendingLaw::secant && !only_forward)
-    refuse("fabric.bending_law",
-           "the secant law has no derivative; this kind of experiment needs \"tangent\"");
+  check_fit(settings, refuse);
 }
 
 }  // namespace

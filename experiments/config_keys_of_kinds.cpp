@@ -59,7 +59,10 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("estimate", "method", "", kAny,
       "Levenberg-Marquardt with forward sensitivities, or BFGS with adjoint gradients alone.",
       DRAPE_MEMBER(estimate.method));
-  add("estimate", "loss", "", kAny, "What is compared: radial profiles or coverage images.",
+  add("estimate", "loss", "", kAny,
+      "What is compared: radial profiles, coverage images, or outlines that need not be "
+      "star-shaped "
+      "by the signed distances of the observed one's points.",
       DRAPE_MEMBER(estimate.loss));
   add("estimate", "parameters", "", kAny, "The parameters to estimate; the others are held.",
       DRAPE_MEMBER(estimate.parameters));

@@ -53,7 +53,7 @@ std::vector<std::string> names_of<FitMethod>() {
 }
 template <>
 std::vector<std::string> names_of<OutlineLoss>() {
-  return {"profile", "coverage"};
+  return {"profile", "coverage", "signed_distance"};
 }
 template <>
 std::vector<std::string> names_of<TargetFabrics>() {

@@ -49,7 +49,7 @@ struct TracedFitOptions {
   double sufficient_cost = 1e-9;  ///< costs below it are exact
   double bound_factor = 100;      ///< parameters stay within start / factor .. start * factor
   double tolerance = 1e-8;        ///< of the forward solves
-  ContinuationOptions continuation;
+  ContinuationOptions continuation{};
 };
 
 /// Fits the parameters of `space`, whose reference is the first fabric. The picture brings its

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <map>
+#include <memory>
 
 #include "estimation/tag.h"
 #include "experiments/figure.h"
@@ -29,11 +31,12 @@ Record observed_record(const Settings& settings, const std::filesystem::path& fi
   return record;
 }
 
-Json picture_summary(const std::filesystem::path& file, const Record& record,
-                     const PictureEstimate& drape) {
+Json picture_summary(const std::filesystem::path& file, double specimen_radius,
+                     const Record& record, const PictureEstimate& drape) {
   const EstimateRecord& e = *record.estimate;
   Json summary;
   summary["file"] = file.filename().string();
+  summary["specimen_radius"] = specimen_radius;
   summary["outline_rms_mm"] = 1e3 * e.outline_rms;
   summary["iou"] = e.iou;
   summary["node_count"] = e.node_count;
@@ -97,39 +100,61 @@ Json summarise(const Settings& settings, const WarpSearch& search, const Estimat
   return summary;
 }
 
+/// Where the records of the pictures of one specimen size are kept: the run's own folder for the
+/// first, one of its name for the others.
+std::filesystem::path folder_of(const OutputFolder& folder, double radius, bool first) {
+  if (first) return folder.path();
+  const std::filesystem::path own =
+      folder / ("radius_" + std::to_string(std::lround(1e3 * radius)) + "mm");
+  std::filesystem::create_directories(own);
+  return own;
+}
+
 }  // namespace
 
 RunOutcome run_photograph(const Settings& settings, OutputFolder& folder) {
   const PhotographSettings& given = settings.photograph;
-  std::vector<Photograph> photographs;
-  for (const std::filesystem::path& file : given.files)
-    photographs.push_back(read_photograph(file, 1e-3 * given.mm_per_pixel, settings.scene));
   const Fabric first = first_parameters(given.structure, given.areal_density);
-
-  const auto discretization = make_discretization(settings);
-  const Potential model = make_potential(discretization, first, settings);
+  std::vector<Photograph> photographs;
+  std::vector<Picture> pictures;
+  std::map<double, std::vector<size_t>> of_radius;
+  std::map<double, std::shared_ptr<const Discretization>> discretizations;
+  for (size_t i = 0; i < given.files.size(); ++i) {
+    const Settings own = with_specimen(settings, i);
+    const double radius = own.scene.specimen_radius;
+    photographs.push_back(read_photograph(given.files[i], 1e-3 * given.mm_per_pixel, own.scene));
+    if (!discretizations.contains(radius)) discretizations[radius] = make_discretization(own);
+    pictures.push_back(
+        picture_of(own, make_potential(discretizations[radius], first, own), photographs.back()));
+    of_radius[radius].push_back(i);
+  }
   EstimateOptions options = estimate_options(settings);
   options.prior = fit_prior(settings, given.prior, given.structure, first);
-  const WarpSearch search = fit_photographs(settings, model, first, photographs, options);
+  const WarpSearch search = fit_pictures(settings, pictures, first, options);
   const Estimate& result = search.best;
 
-  const int count = static_cast<int>(photographs.size());
-  const RecordStore store(folder.path(), records_header(settings, discretization->mesh()), count);
-  Json each = Json::array();
-  std::vector<double> squared_rms, iou;
+  const size_t count = photographs.size();
+  std::vector<Json> each(count);
+  std::vector<double> squared_rms(count), iou(count);
   Record record;
-  for (size_t i = 0; i < photographs.size(); ++i) {
-    record =
-        observed_record(settings, given.files[i], photographs[i], discretization->mesh(), first);
-    record.estimate =
-        estimate_record(search.pictures[i], result.pictures[i], result, options.parameters);
-    store.save(static_cast<int>(i), record);
-    each.push_back(picture_summary(given.files[i], record, result.pictures[i]));
-    squared_rms.push_back(std::pow(1e3 * record.estimate->outline_rms, 2));
-    iou.push_back(record.estimate->iou);
+  for (const auto& [radius, indices] : of_radius) {
+    const Settings own = with_specimen(settings, indices.front());
+    const Mesh& mesh = discretizations[radius]->mesh();
+    const std::filesystem::path place = folder_of(folder, radius, indices.front() == 0);
+    const RecordStore store(place, records_header(own, mesh), static_cast<int>(indices.size()));
+    for (size_t k = 0; k < indices.size(); ++k) {
+      const size_t i = indices[k];
+      record = observed_record(own, given.files[i], photographs[i], mesh, first);
+      record.estimate =
+          estimate_record(search.pictures[i], result.pictures[i], result, options.parameters);
+      store.save(static_cast<int>(k), record);
+      each[i] = picture_summary(given.files[i], radius, record, result.pictures[i]);
+      squared_rms[i] = std::pow(1e3 * record.estimate->outline_rms, 2);
+      iou[i] = record.estimate->iou;
+    }
+    store.consolidate();
+    draw_figure("estimate_overlay.py", place / "results.h5", place / "overlay");
   }
-  store.consolidate();
-  draw_figure("estimate_overlay.py", folder / "results.h5", folder / "overlay");
 
   Json summary = summarise(settings, search, *record.estimate);
   summary["outline_rms_mm"] = std::sqrt(mean(squared_rms));

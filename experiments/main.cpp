@@ -17,6 +17,7 @@
 #include "experiments/interrupt.h"
 #include "experiments/isolated.h"
 #include "experiments/paper_parts.h"
+#include "experiments/photograph_fit.h"
 #include "experiments/run_kind.h"
 #include "experiments/start_outline.h"
 #include "experiments/summary.h"
@@ -41,8 +42,9 @@ void check_inputs(const Settings& settings) {
   const Kind kind = settings.experiment.kind;
   if (settings.start.protocol == StartProtocol::guided) start_profile(settings);
   if (kind == Kind::photograph) {
-    for (const std::filesystem::path& file : settings.photograph.files)
-      read_photograph(file, 1e-3 * settings.photograph.mm_per_pixel, settings.scene);
+    for (size_t i = 0; i < settings.photograph.files.size(); ++i)
+      read_photograph(settings.photograph.files[i], 1e-3 * settings.photograph.mm_per_pixel,
+                      with_specimen(settings, i).scene);
   } else if (kind == Kind::paper) {
     paper_parts(settings);
   } else if (kind == Kind::estimate && !settings.estimate.dataset.empty()) {

@@ -10,6 +10,12 @@ constexpr double kRightAngle = 90;  // from weft to warp [deg]
 
 }  // namespace
 
+Settings with_specimen(Settings settings, size_t file) {
+  const std::vector<double>& radii = settings.photograph.specimen_radius_mm;
+  if (!radii.empty()) settings.scene.specimen_radius = 1e-3 * radii[radii.size() == 1 ? 0 : file];
+  return settings;
+}
+
 Picture picture_of(const Settings& settings, const Potential& model, const Photograph& photograph) {
   Picture picture{model, settings.scene, {}};
   picture.seen.profile = photograph.profile;
@@ -17,18 +23,17 @@ Picture picture_of(const Settings& settings, const Potential& model, const Photo
   picture.seen.noise_harmonics = settings.estimate.noise_harmonics;
   picture.seen.grid = photograph.grid;
   picture.seen.coverage = photograph.coverage;
+  picture.seen.outline = photograph.boundary;
+  if (settings.photograph.camera_height_mm > 0)
+    picture.seen.camera.height = 1e-3 * settings.photograph.camera_height_mm;
   picture.seen.centre_known = false;
   picture.seen.weft_angle_sd = kDegree * settings.photograph.warp_angle_sd;
   picture.seen.scale_log_sd = settings.photograph.scale_log_sd;
   return picture;
 }
 
-WarpSearch fit_photographs(const Settings& settings, const Potential& model, const Fabric& first,
-                           const std::vector<Photograph>& photographs,
-                           const EstimateOptions& options) {
-  std::vector<Picture> pictures;
-  for (const Photograph& photograph : photographs)
-    pictures.push_back(picture_of(settings, model, photograph));
+WarpSearch fit_pictures(const Settings& settings, std::vector<Picture> pictures,
+                        const Fabric& first, const EstimateOptions& options) {
   std::vector<double> weft_angles;
   for (const double angle : settings.photograph.warp_angles)
     weft_angles.push_back(kDegree * (angle - kRightAngle));

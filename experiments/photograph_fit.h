@@ -9,14 +9,17 @@
 
 namespace drape {
 
-/// Noise, nuisances and their priors as [photograph] says; `model` gives mesh, reading and gravity.
+/// The settings with the specimen of photograph.files[file] in their scene.
+Settings with_specimen(Settings settings, size_t file);
+
+/// Camera, noise, nuisances and their priors as [photograph] says, the specimen as the scene says;
+/// `model` gives mesh, reading and gravity.
 Picture picture_of(const Settings& settings, const Potential& model, const Photograph& photograph);
 
-/// The fit of photographs of one fabric, warp directions as [photograph] says. `first`: the first
+/// The fit of pictures of one fabric, warp directions as [photograph] says. `first`: the first
 /// fabric. The prior is the options'.
-WarpSearch fit_photographs(const Settings& settings, const Potential& model, const Fabric& first,
-                           const std::vector<Photograph>& photographs,
-                           const EstimateOptions& options);
+WarpSearch fit_pictures(const Settings& settings, std::vector<Picture> pictures,
+                        const Fabric& first, const EstimateOptions& options);
 
 /// Direction of the warp of an angle of the weft [rad], in degrees.
 double warp_degrees(double weft_angle);

@@ -195,7 +195,7 @@ Json fit_capture(const Settings& settings, std::shared_ptr<const Discretization>
   EstimateOptions options = estimate_options(settings);
   options.prior = fit_prior(settings, settings.photograph.prior, structure, first);
   return account(settings, photograph,
-                 fit_photographs(settings, model, first, {photograph}, options),
+                 fit_pictures(settings, {picture_of(settings, model, photograph)}, first, options),
                  options.parameters);
 }
 
@@ -207,7 +207,7 @@ Json predict_capture(const Settings& settings, std::shared_ptr<const Discretizat
   EstimateOptions options = estimate_options(settings);
   options.prior = prior_about({options.parameters, fabric}, fabric, kHeldLogSd);
   return account(settings, photograph,
-                 fit_photographs(settings, model, fabric, {photograph}, options),
+                 fit_pictures(settings, {picture_of(settings, model, photograph)}, fabric, options),
                  options.parameters);
 }
 

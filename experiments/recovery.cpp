@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/contour.h"
 #include "core/profile.h"
 #include "core/random.h"
 #include "estimation/bending_rigidity.h"
@@ -118,6 +119,8 @@ EstimateRecord recover(const Settings& settings, const Potential& model, const R
                             : record.observation.profile;
   observation.grid = header.grid;
   observation.coverage = record.observation.coverage;
+  if (options.misfit.loss == OutlineLoss::signed_distance)
+    observation.outline = contour(observation.coverage, observation.grid);
 
   const Fabric start = perturbed(record.fabric, settings.estimate, seed_of_item(seed, 2));
   const Structure structure =
@@ -168,7 +171,9 @@ EstimateRecord estimate_record(const Picture& picture, const PictureEstimate& dr
                                                       : VecX::Constant(kProfileSize, std::nan(""));
   const Outline outline = trace_outline(potential.mesh(), picture.scene, drape.equilibrium.x);
   kept.drape_coefficient = drape_coefficient(picture.scene, area(outline.points));
-  const Points2 seen = drape.placement.seen(outline.points);
+  const VecX x = picture.seen.camera.seen(drape.equilibrium.x);
+  const Points2 seen =
+      drape.placement.seen(trace_outline(potential.mesh(), picture.scene, x).points);
   kept.profile = radial_profile(seen).radius;
   kept.node_count = node_count(kept.profile);
   kept.iou = intersection_over_union(coverage(seen, picture.seen.grid), picture.seen.coverage);

@@ -143,6 +143,18 @@ TEST(Coverage, DerivativeMatchesCentralDifferences) {
   }
 }
 
+TEST(Coverage, PushForwardIsTheTransposeOfPullBack) {
+  const Points2 polygon = star(41, 0.1, {0.02, -0.01}, 6);
+  Random random(3);
+  CoverageImage weights(kGrid.rows, kGrid.columns);
+  for (double& weight : weights.reshaped()) weight = random.uniform(-1, 1);
+  Points2 velocity(polygon.rows(), 2);
+  for (double& component : velocity.reshaped()) component = random.uniform(-1, 1);
+  const double pulled = pull_back(polygon, kGrid, weights).cwiseProduct(velocity).sum();
+  const CoverageImage rate = push_forward(polygon, kGrid, velocity);
+  EXPECT_NEAR(weights.cwiseProduct(rate).sum(), pulled, 1e-13 * rate.cwiseAbs().sum());  // rounding
+}
+
 TEST(Coverage, DerivativeOfTheSumIsTheDerivativeOfTheArea) {
   const PixelGrid grid = centred_grid(64, 0.4);
   const Points2 polygon = star(41, 0.1, {0, 0}, 5);

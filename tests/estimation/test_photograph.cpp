@@ -9,12 +9,15 @@
 #include <fstream>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/outline.h"
 #include "core/profile.h"
+#include "core/profile.h"
+#include "core/signed_distance.h"
 #include "estimation/photograph.h"
 
 namespace drape {
@@ -74,6 +77,10 @@ class PhotographTest : public ::testing::Test {
     const std::filesystem::path file = folder_ / name;
     cv::imwrite(file.string(), image, {cv::IMWRITE_JPEG_QUALITY, 75});
     return file;
+  }
+  std::filesystem::path written(const char* name, const std::string& bytes) {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return folder_ / name;
   }
   Photograph read(const cv::Mat& image) { return read_photograph(saved(image), kScale, Scene{}); }
 
@@ -148,6 +155,32 @@ TEST_F(PhotographTest, TurnsTheImageSoThatUpIsPositiveY) {
   EXPECT_GT(photo.profile[0], photo.profile[180]);
 }
 
+TEST_F(PhotographTest, AppliesTheOrientationStoredInTheFile) {
+  const Shape lobe = [](double alpha) { return 80 + 20 * std::exp(8 * (std::sin(alpha) - 1)); };
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", drawn(lobe), jpeg);
+  // Exif with one entry: orientation 6, to be turned clockwise by a right angle
+  const std::string exif(
+      "\xFF\xE1\x00\x22"
+      "Exif\0\0"
+      "II*\0\x08\0\0\0\x01\0\x12\x01\x03\0"
+      "\x01\0\0\0\x06\0\0\0\0\0\0\0",
+      36);
+  const std::string plain(jpeg.begin(), jpeg.end());
+  const Photograph photo = read_photograph(
+      written("turned.jpg", plain.substr(0, 2) + exif + plain.substr(2)), kScale, Scene{});
+  int highest = 0;
+  photo.profile.maxCoeff(&highest);
+  EXPECT_LE(std::min(highest, kProfileSize - highest), 3);  // up in the file, to the right as seen
+}
+
+TEST_F(PhotographTest, TheBoundaryOfAStarShapeIsItsOutline) {
+  const Photograph photo = read(drawn(folds));
+  ASSERT_TRUE(photo.star_shaped);
+  const VecX apart = signed_distances(photo.boundary, photo.outline).distance;
+  EXPECT_LE(apart.cwiseAbs().maxCoeff(), 0.1 * kScale);  // chords for the bilinear line of a cell
+}
+
 TEST_F(PhotographTest, PlacesTheCoverageInTheFrameOfTheOutline) {
   const Photograph photo = read(drawn(folds));
   ASSERT_EQ(photo.coverage.rows(), photo.grid.rows);
@@ -184,10 +217,6 @@ TEST_F(PhotographTest, IgnoresSpecksAndNoise) {
 TEST_F(PhotographTest, RefusesAFileThatIsNoImage) {
   expect_refused(folder_ / "absent.png", "no such file");
   expect_refused(folder_, "no such file");
-  const auto written = [&](const char* name, const std::string& bytes) {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return folder_ / name;
-  };
   expect_refused(written("empty.png", ""), "empty (0 bytes)");
   expect_refused(written("text.png", "this is no image"), "not an image");
   for (const char* name : {"whole.png", "whole.jpg"}) {
@@ -222,6 +251,12 @@ TEST_F(PhotographTest, RefusesWhatIsNoSilhouette) {
   cv::Mat crescent = drawn(disc);
   draw_disc(crescent, 150, 129, 75, 0);
   expect_refused(saved(crescent), "centroid", 2.1e-3);
+
+  cv::Mat blurred;
+  cv::GaussianBlur(drawn(folds), blurred, {0, 0}, 6);
+  expect_refused(saved(blurred), "the image is blurred: the silhouette's edge is");
+  cv::GaussianBlur(drawn(folds), blurred, {0, 0}, 1);
+  EXPECT_NO_THROW(read(blurred));
 
   cv::Mat tiny(kPixels, kPixels, CV_8U, cv::Scalar(0));
   draw_disc(tiny, 128, 128, 10, 255);

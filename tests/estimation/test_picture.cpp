@@ -83,7 +83,7 @@ TEST(Picture, TheGuideLiesOnTheOutline) {
   OutlineObservation seen = observation();
   for (int i = 0; i < kProfileSize; ++i) seen.profile[i] = shape(2 * M_PI * i / kProfileSize);
   const Placement place = placement(seen, kNuisances);
-  const Guide guide = guide_towards(seen, place, 6, 0.1);
+  const Guide guide = guide_towards(seen, kCusick, place, 6, 0.1);
   EXPECT_EQ(guide.kappa, 0.1);
   for (const double alpha : {0.0, 1.0, 2.5, 4.0}) {
     const Vec2 on_drape =

@@ -319,6 +319,19 @@ TEST(Config, SettingsMustFitTogether) {
   EXPECT_TRUE(contains(read_error(std::nullopt, photo), "needs photograph.areal_density > 0"));
   photo.push_back(assignment_from_set("photograph.areal_density=.2"));
   EXPECT_EQ(read_error(std::nullopt, photo), "no error");
+  photo.push_back(assignment_from_set("photograph.specimen_radius_mm=[120]"));
+  photo.push_back(assignment_from_set("photograph.camera_height_mm=1200"));
+  EXPECT_EQ(read_error(std::nullopt, photo), "no error");
+  photo.push_back(assignment_from_set("photograph.specimen_radius_mm=[120, 150]"));
+  EXPECT_TRUE(contains(read_error(std::nullopt, photo), "holds 2 radii for 1 files"));
+}
+
+TEST(Config, ADensityInGramsIsRecognised) {
+  for (const char* key :
+       {"fabric.areal_density", "photographs.areal_density", "quickstart.areal_density"})
+    EXPECT_TRUE(contains(set_error(std::string(key) + "=200"), "if it is in g/m^2, write 0.2"))
+        << key;
+  EXPECT_EQ(set_error("fabric.areal_density=3"), "no error");
 }
 
 TEST(Config, ExplainKnowsEveryKey) {

@@ -22,6 +22,7 @@ import branches  # noqa: E402
 import dataset  # noqa: E402
 import drape_sheet  # noqa: E402
 import ensemble  # noqa: E402
+import estimation_precision  # noqa: E402
 import estimate_overlay  # noqa: E402
 import gradient_precision  # noqa: E402
 import identifiability  # noqa: E402
@@ -224,6 +225,17 @@ def snap_result():
             "last_natural_step_distance": 1e-4}
 
 
+def estimation_precision_chart():
+    """What a run of kind estimation_precision writes, made up; one error is not known."""
+    def curve(method, values):
+        return {"method": method, "label": "Levenberg-Marquardt, differences",
+                "cpu_seconds": [0.001, 0.1, 3], "low": values, "median": values, "high": values}
+    errors = {"outline_mm": [3, 0.1, 0], "bending_error": [1, 0.2, None], "shear_error": [None] * 3}
+    return {"fabrics": 3, "starts": 2, "fits": 6, "vertices": 500, "budget_cpu_seconds": 10,
+            "curves": {error: [curve(method, values) for method in estimation_precision.LOOK]
+                       for error, values in errors.items()}}
+
+
 def stability_atlas():
     """What a run of kind stability writes, made up."""
     outcomes = list(stability.OUTCOMES)
@@ -357,6 +369,7 @@ class Figures(unittest.TestCase):
         self.check_layout(page)
         self.assertIn("1.2345 times", self.words(page))
         self.check_layout(stability.page(stability_atlas()))
+        self.check_layout(estimation_precision.page(estimation_precision_chart()))
         chart = work_precision_chart()
         self.check_layout(work_precision.page(chart))
         self.check_layout(work_precision.page(chart | {"panels": chart["panels"][:1]}))
@@ -392,6 +405,7 @@ class Figures(unittest.TestCase):
                                 ("identifiability", identifiability_summary()),
                                 ("work_precision", work_precision_chart()),
                                 ("stability", stability_atlas()),
+                                ("estimation_precision", estimation_precision_chart()),
                                 ("ablation", ablation_result()),
                                 ("gradient_precision", gradients_result()),
                                 ("snap_gradient", snap_result())):

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
@@ -26,6 +27,17 @@ std::string drawn(GreyOf white) {
   std::string image = "P5\n128 128\n255\n";
   for (int row = 0; row < 128; ++row)
     for (int column = 0; column < 128; ++column) image += white(column, row) ? '\xff' : '\0';
+  return image;
+}
+
+/// A disc of 45 pixels radius whose grey falls from white to black over 16 pixels.
+std::string blurred_disc() {
+  std::string image = "P5\n128 128\n255\n";
+  for (int row = 0; row < 128; ++row)
+    for (int column = 0; column < 128; ++column) {
+      const double depth = 45 - std::hypot(column - 64, row - 64);
+      image += static_cast<char>(std::lround(255 * std::clamp(0.5 + depth / 16, 0.0, 1.0)));
+    }
   return image;
 }
 
@@ -124,6 +136,14 @@ TEST_F(Program, EstimateNeedsItsInput) {
   expect_refused(photos + "none.png", "--photo: photograph.files: there is no file");
   expect_refused(photos + "a.toml", "has \"");
   expect_refused(photos + "--warp-angle up", "--warp-angle [up]: ");
+  expect_refused(photos + "--specimen-radius-mm 150 120",
+                 "--specimen-radius-mm: photograph.specimen_radius_mm holds 2 radii for 1 files");
+  expect_refused(photos + "--specimen-radius-mm 80", "--specimen-radius-mm: ");
+  expect_refused(photos + "--specimen-radius-mm wide", "--specimen-radius-mm");
+  expect_refused(photos + "--camera-height-mm 140", "--camera-height-mm 140: ");
+  expect_refused("estimate --photo a.toml --mm-per-pixel 1.39 --density 180 --out out",
+                 "--density 180: photograph.areal_density = 180 kg/m^2: no cloth is that heavy; if "
+                 "it is in g/m^2, write 0.18");
 }
 
 TEST_F(Program, BadParameters) {
@@ -152,6 +172,7 @@ TEST_F(Program, ImagesThatAreNoSilhouette) {
       {"hole.pgm",
        drawn([](int c, int r) { return in_disc(c, r, 64, 64, 45) && !in_disc(c, r, 64, 64, 9); }),
        "has a hole"},
+      {"blurred.pgm", blurred_disc(), "the image is blurred"},
       {"small.pgm", drawn([](int c, int r) { return in_disc(c, r, 64, 64, 25); }),
        "a drape lies between its support"},
       {"text.png", "not an image", "not an image"},
