@@ -1,20 +1,13 @@
-// Datasets as a user meets them: cut into shards, merged, verified, exported, imported, killed.
+// Datasets as a user meets them: cut into shards, merged, verified, exported, imported.
 #include <gtest/gtest.h>
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "core/hdf5_file.h"
 #include "core/random.h"
 #include "core/records.h"
 #include "core/sha256.h"
 #include "tests/experiments/program_fixture.h"
-
-extern char** environ;
 
 namespace drape {
 namespace {
@@ -214,46 +207,6 @@ TEST_F(Dataset, FailuresAreReplayed) {
   ASSERT_EQ(again.size(), 1u);
   EXPECT_EQ(to_vector(again[0].fabric), to_vector(read_records(table("a")).at(2).fabric));
   expect_refused("run d.toml --out b --set dataset.only=[12]", "the set has 0 to 11");
-}
-
-// Killed at random moments until a session gets to the end by itself.
-TEST_F(Dataset, KilledAtAnyMomentItEndsTheSame) {
-  run("--out whole");
-  Random random(5);
-  int kills = 0;
-  for (;; ++kills) {
-    ASSERT_LT(kills, 200);
-    const std::string program = DRAPE_PROGRAM, config = (scratch / "d.toml").string(),
-                      out = (scratch / "killed").string();
-    std::vector<std::string> words{program, "run", config, "--threads", "1", "--out", out};
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    pid_t child = 0;
-    posix_spawn_file_actions_t quiet;
-    posix_spawn_file_actions_init(&quiet);
-    for (const int stream : {1, 2})
-      posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", O_WRONLY, 0);
-    ASSERT_EQ(posix_spawn(&child, program.c_str(), &quiet, nullptr, arguments.data(), environ), 0);
-    posix_spawn_file_actions_destroy(&quiet);
-    int status = 0;
-    bool ended = false;
-    if (kills < 8) {  // then it may go on
-      std::this_thread::sleep_for(
-          std::chrono::microseconds(static_cast<int>(4e5 * random.uniform())));
-      kill(child, SIGKILL);
-    }
-    ASSERT_EQ(waitpid(child, &status, 0), child);
-    ended = WIFEXITED(status);
-    if (ended) {
-      EXPECT_EQ(WEXITSTATUS(status), 0);
-      break;
-    }
-  }
-  expect_same(table("killed"), table("whole"));
-  EXPECT_EQ(read_header(table("killed")).config, read_header(table("whole")).config);
-  EXPECT_EQ(verify_checksum(table("killed")), ChecksumState::matches);
-  RecordProperty("kills", kills);
 }
 
 }  // namespace
