@@ -8,7 +8,7 @@ template <>
 std::vector<std::string> names_of<Kind>() {
   return {"drape",       "dataset",         "estimate",       "photograph", "gradient_check",
           "robustness",  "quickstart",      "branches",       "validation", "accuracy",
-          "photographs", "identifiability", "work_precision", "stability"};
+          "photographs", "identifiability", "work_precision", "stability",  "tag_comparison"};
 }
 template <>
 std::vector<std::string> names_of<MeshKind>() {
@@ -52,8 +52,12 @@ std::vector<std::string> names_of<EstimateStart>() {
   return {"guided", "continued"};
 }
 template <>
+std::vector<std::string> names_of<FirstParameters>() {
+  return {"perturbed", "weight", "tag"};
+}
+template <>
 std::vector<std::string> names_of<PriorKind>() {
-  return {"none", "start", "weight"};
+  return {"none", "start", "weight", "tag"};
 }
 template <>
 std::vector<std::string> names_of<PhotographModel>() {

@@ -7,30 +7,9 @@
 #include "core/durable_file.h"
 #include "experiments/figure.h"
 #include "experiments/interrupt.h"
-#include "experiments/kinds.h"
-#include "experiments/summary.h"
+#include "experiments/run_part.h"
 
 namespace drape {
-namespace {
-
-using RunFunction = RunOutcome (*)(const Settings&, OutputFolder&);
-
-/// Runs a part in a folder of its own, or takes its finished result. Its summary, with status.
-nlohmann::ordered_json run_part(const std::string& part, RunFunction run, Kind kind,
-                                Settings settings, const OutputFolder& folder) {
-  const auto begin = std::chrono::steady_clock::now();
-  settings.experiment.kind = kind;
-  OutputFolder part_folder(folder / part, settings);
-  if (part_folder.state() == OutputFolder::State::finished) return read_summary(part_folder);
-  const RunOutcome outcome = run(settings, part_folder);
-  if (interrupted()) return {{"status", "partial"}};
-  nlohmann::ordered_json result = summary(kind, outcome, begin);
-  write_summary(part_folder, result);
-  return result;
-}
-
-}  // namespace
-
 RunOutcome run_quickstart(const Settings& settings, OutputFolder& folder) {
   const QuickstartSettings& quickstart = settings.quickstart;
   RunOutcome outcome{"ok", {}};

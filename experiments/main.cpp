@@ -56,6 +56,8 @@ RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
       return run_stability(settings, folder);
     case Kind::branches:
       return run_branches(settings, folder);
+    case Kind::tag_comparison:
+      return run_tag_comparison(settings, folder);
   }
   throw std::logic_error("a kind of experiment without a function");
 }

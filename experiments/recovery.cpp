@@ -7,6 +7,7 @@
 #include "core/profile.h"
 #include "core/random.h"
 #include "estimation/bending_rigidity.h"
+#include "estimation/tag_model.h"
 #include "experiments/model.h"
 
 namespace drape {
@@ -15,6 +16,36 @@ namespace {
 constexpr double kSharedBranch = 1e-6;  // [m]
 constexpr double kBranchStep = 0.1;     // of a log parameter: small beside the snaps of a drape
 constexpr double kPi = 3.14159265358979323846;
+
+/// Throws std::invalid_argument if the record has no tag.
+Tag tag_of(const Record& record) {
+  return {record.id,
+          record.category,
+          record.subcategory,
+          record.type,
+          composition_from_text(record.composition),
+          record.fabric.areal_density};
+}
+
+/// The first parameters of a fit and the weight as the record has it.
+Fabric first_fabric(const EstimateSettings& settings, const Record& record,
+                    BendingThreshold threshold, std::uint64_t seed) {
+  switch (settings.first) {
+    case FirstParameters::perturbed:
+      return perturbed(record.fabric, settings, seed);
+    case FirstParameters::weight:
+      return first_parameters(Structure::woven, record.fabric.areal_density);
+    case FirstParameters::tag: {
+      const std::vector<Parameter> all(all_parameters().begin(), all_parameters().end());
+      const Tag tag = tag_of(record);
+      Fabric fabric =
+          ParameterSpace{all, record.fabric}.decode(prior_from_tag(all, tag, threshold).mean);
+      fabric.areal_density = tag.areal_density;  // but for rounding
+      return fabric;
+    }
+  }
+  throw std::logic_error("first parameters without a function");
+}
 
 /// The target's own branch at the first parameters of a fit, if there is one, and whether following
 /// it back ends where it began.
@@ -103,6 +134,8 @@ std::optional<Prior> fit_prior(const Settings& settings, PriorKind kind, Structu
       return prior_about({parameters, start}, start, settings.estimate.prior_log_sd);
     case PriorKind::weight:
       return prior_from_weight(parameters, structure, start.areal_density);
+    case PriorKind::tag:
+      break;
   }
   throw std::logic_error("a prior without a function");
 }
@@ -120,10 +153,13 @@ EstimateRecord recover(const Settings& settings, const Potential& model, const R
   observation.grid = header.grid;
   observation.coverage = record.observation.coverage;
 
-  const Fabric start = perturbed(record.fabric, settings.estimate, seed_of_item(seed, 2));
+  const Fabric start =
+      first_fabric(settings.estimate, record, header.reading.threshold, seed_of_item(seed, 2));
   const Structure structure =
       record.category.empty() ? Structure::woven : structure_from_category(record.category);
-  options.prior = fit_prior(settings, settings.estimate.prior, structure, start);
+  options.prior = settings.estimate.prior == PriorKind::tag
+                      ? prior_from_tag(options.parameters, tag_of(record), header.reading.threshold)
+                      : fit_prior(settings, settings.estimate.prior, structure, start);
   Potential target = model;  // what acted on the target acts on its branch
   target.set_support(record.stats.contact == "support"
                          ? std::optional(support_contact(header.scene))

@@ -36,7 +36,8 @@ enum class Kind {
   photographs,
   identifiability,
   work_precision,
-  stability
+  stability,
+  tag_comparison
 };
 
 struct Experiment {
@@ -105,8 +106,11 @@ enum class EstimateStart {
   continued,  ///< a known target's own equilibrium, followed to the first parameters
 };
 
+/// The first parameters of a fit: the truth perturbed, or what the weight or the tag says.
+enum class FirstParameters { perturbed, weight, tag };
+
 /// What is known of a fabric before its outline is seen.
-enum class PriorKind { none, start, weight };
+enum class PriorKind { none, start, weight, tag };
 
 struct EstimateSettings {
   int fabrics = 20;
@@ -122,6 +126,7 @@ struct EstimateSettings {
   OutlineLoss loss = OutlineLoss::profile;
   std::vector<Parameter> parameters{Parameter::k_h, Parameter::k_bu, Parameter::k_bv,
                                     Parameter::k_bh};
+  FirstParameters first = FirstParameters::perturbed;
   double perturbation = 2;
   Perturb perturb = Perturb::up;
   int max_iterations = 60;
@@ -151,8 +156,10 @@ struct DatasetSettings {
   int rows = 0;                      ///< of the table; 0: all
   int shard = 1, shards = 1;         ///< which part of how many, from 1
   std::vector<int> only;             ///< indices of fabrics; empty: all of the shard
+  std::vector<double> radii;         ///< of specimens [m], a table each; empty: that of the scene
+  std::vector<StartProtocol> protocols;  ///< each drapes every fabric; empty: that of the settings
   int pixels = 256;
-  double image_width = 0.35584;  ///< [m]
+  double image_width = 0.35584;  ///< at the scene's specimen radius, others in proportion [m]
 };
 
 enum class CheckedLoss { profile, coverage, drape_coefficient };
@@ -246,6 +253,12 @@ struct StabilitySettings {
   std::vector<int> only;   ///< indices of cells; empty: all
 };
 
+/// What tag, picture and both tell of fabrics that a learned regressor has not seen.
+struct TagComparisonSettings {
+  int training = 1000;  ///< fabrics that the regressor learns from
+  int held_out = 40;    ///< fabrics that all are compared on
+};
+
 struct Settings {
   Experiment experiment;
   Fabric fabric;
@@ -268,6 +281,7 @@ struct Settings {
   BranchesSettings branches;
   PhotographsSettings photographs;
   IdentifiabilitySettings identifiability;
+  TagComparisonSettings tag_comparison;
 };
 
 }  // namespace drape
