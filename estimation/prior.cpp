@@ -6,8 +6,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/random.h"
+#include "estimation/tag_model.h"
+
 namespace drape {
 namespace {
+
+/// Below it nothing was scattered: what is left is rounding.
+constexpr double kLeastVariance = 1e-20;
 
 /// ln k_b about its mean given the weight. Fitted: with these, the logarithms of (B_u, B_v, B_45) =
 /// 4 M k_b scatter about their regression on the weight as they do over the distinct rows of the
@@ -110,6 +116,28 @@ Prior prior_from_weight(const std::vector<Parameter>& parameters, Structure stru
         prior.covariance(i, j) = prior.covariance(j, i) =
             kCorrelationOfThreads * kSdAlongThread * kSdAlongThread;
   }
+  return prior;
+}
+
+Prior prior_from_tag(const std::vector<Parameter>& parameters, const Tag& tag,
+                     BendingThreshold threshold) {
+  constexpr int kDrawn = 4000;
+  constexpr std::uint64_t kSeed = 1;
+  const ParameterSpace space{parameters, first_parameters(tag)};
+  MatX z(space.size(), kDrawn);
+  for (int i = 0; i < kDrawn; ++i) {
+    Random random(seed_of_item(kSeed, static_cast<std::uint64_t>(i)));
+    z.col(i) = space.encode(random_parameters(tag, threshold, random));
+  }
+  Prior prior{z.rowwise().mean(), {}};
+  z.colwise() -= prior.mean;
+  prior.covariance = z * z.transpose() / (kDrawn - 1);
+  // what the model does not scatter (the weight; softening in the reading "printed")
+  for (int i = 0; i < space.size(); ++i)
+    if (prior.covariance(i, i) < kLeastVariance)
+      prior.covariance(i, i) = std::pow(
+          sd_from_weight(parameters[static_cast<size_t>(i)], structure_from_category(tag.category)),
+          2);
   return prior;
 }
 

@@ -28,4 +28,9 @@ Prior prior_about(const ParameterSpace& space, const Fabric& fabric, double log_
 Prior prior_from_weight(const std::vector<Parameter>& parameters, Structure structure,
                         double areal_density);
 
+/// From the whole tag: mean and covariance of z over fabrics drawn from the tag model
+/// (random_parameters). The weight is as certain as a weighing. Throws like first_parameters.
+Prior prior_from_tag(const std::vector<Parameter>& parameters, const Tag& tag,
+                     BendingThreshold threshold);
+
 }  // namespace drape

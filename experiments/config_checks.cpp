@@ -85,6 +85,18 @@ void check_fit(const Settings& settings, const Refuse& refuse) {
     refuse("dataset.shard", "dataset.shard must be 1 to dataset.shards");
   if (!settings.dataset.table.empty() && !settings.dataset.parameters.empty())
     refuse("dataset.parameters", "dataset.table and dataset.parameters exclude each other");
+  if (!settings.dataset.radii.empty() && kind != Kind::dataset)
+    refuse("dataset.radii",
+           "dataset.radii is only for kind \"dataset\"; set scene.specimen_radius");
+  for (const double radius : settings.dataset.radii)
+    if (!(radius > settings.scene.support_radius))
+      refuse("dataset.radii", "dataset.radii must be larger than scene.support_radius");
+  for (const StartProtocol protocol : settings.dataset.protocols)
+    if (protocol == StartProtocol::guided)
+      refuse("dataset.protocols",
+             "dataset.protocols cannot hold \"guided\", which follows one outline");
+  if (settings.photograph.prior == PriorKind::tag)
+    refuse("photograph.prior", "photograph.prior cannot be \"tag\": a photograph has none");
   if (kind == Kind::paper && settings.paper.configs.empty())
     refuse("experiment.kind", "a paper needs paper.configs, the experiments to collect");
   if (kind == Kind::quickstart && settings.quickstart.table.empty())

@@ -29,9 +29,20 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("dataset", "only", "", kNotNegative,
       "Indices of the fabrics to drape (again), e.g. of a failure; [] for all of the shard.",
       DRAPE_MEMBER(dataset.only));
+  add("dataset", "radii", "m", kPositive,
+      "Radii of the specimens cut from every fabric: a table each, the first in results.h5, the "
+      "others in radius_NNNmm/; [] for scene.specimen_radius.",
+      DRAPE_MEMBER(dataset.radii));
+  add("dataset", "protocols", "", kAny,
+      "Start protocols, each of which drapes every fabric: a record each, ID:PROTOCOL; [] for "
+      "start.protocol.",
+      DRAPE_MEMBER(dataset.protocols));
   add("dataset", "pixels", "", {16, 4096, true}, "Rows and columns of the coverage images.",
       DRAPE_MEMBER(dataset.pixels));
-  add("dataset", "image_width", "m", kPositive, "Width and height of the coverage images.",
+  add("dataset", "image_width", "m", kPositive,
+      "Width and height of the coverage images; with dataset.radii at scene.specimen_radius, "
+      "others "
+      "in proportion.",
       DRAPE_MEMBER(dataset.image_width));
 
   add("estimate", "fabrics", "", at_least(1),
@@ -66,6 +77,10 @@ void add_keys_of_kinds(ConfigKeyList& add) {
       DRAPE_MEMBER(estimate.loss));
   add("estimate", "parameters", "", kAny, "The parameters to estimate; the others are held.",
       DRAPE_MEMBER(estimate.parameters));
+  add("estimate", "first", "", kAny,
+      "First parameters of a fit: the truth \"perturbed\" (estimate.perturb), or without knowing "
+      "it what the \"weight\" or the \"tag\" of the record says.",
+      DRAPE_MEMBER(estimate.first));
   add("estimate", "perturbation", "", at_least(1),
       "Largest factor by which the start is wrong where the truth is known.",
       DRAPE_MEMBER(estimate.perturbation));
@@ -93,7 +108,8 @@ void add_keys_of_kinds(ConfigKeyList& add) {
       DRAPE_MEMBER(estimate.huber));
   add("estimate", "prior", "", kAny,
       "What is known before the outline is seen: nothing, each parameter about its start "
-      "(prior_log_sd), or what the structure and the weight say, correlations included.",
+      "(prior_log_sd), or what the structure and the weight or the whole tag say, correlations "
+      "included.",
       DRAPE_MEMBER(estimate.prior));
   add("estimate", "prior_log_sd", "", kPositive,
       "prior = \"start\": standard deviation of each log parameter about its start.",
@@ -169,6 +185,13 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("photographs", "lobes", "", {1, 60, true},
       "Lobes of the folded starts that predict drapes without a picture.",
       DRAPE_MEMBER(photographs.lobes));
+
+  add("tag_comparison", "training", "", at_least(10),
+      "Number of fabrics that the learned regressor is shown.",
+      DRAPE_MEMBER(tag_comparison.training));
+  add("tag_comparison", "held_out", "", at_least(1),
+      "Number of other fabrics that tag, picture, both and the regressor are compared on.",
+      DRAPE_MEMBER(tag_comparison.held_out));
 
   add("identifiability", "fabrics", "", at_least(1),
       "Number of random fabrics of the measured distribution.",

@@ -24,6 +24,7 @@ std::vector<std::string> names_of<Kind>() {
           "ablation",
           "gradient_precision",
           "estimation_precision",
+          "tag_comparison",
           "paper"};
 }
 template <>
@@ -68,8 +69,12 @@ std::vector<std::string> names_of<EstimateStart>() {
   return {"guided", "continued"};
 }
 template <>
+std::vector<std::string> names_of<FirstParameters>() {
+  return {"perturbed", "weight", "tag"};
+}
+template <>
 std::vector<std::string> names_of<PriorKind>() {
-  return {"none", "start", "weight"};
+  return {"none", "start", "weight", "tag"};
 }
 template <>
 std::vector<std::string> names_of<PhotographModel>() {

@@ -30,6 +30,8 @@ std::vector<std::string> names_of<Perturb>();
 template <>
 std::vector<std::string> names_of<EstimateStart>();
 template <>
+std::vector<std::string> names_of<FirstParameters>();
+template <>
 std::vector<std::string> names_of<PriorKind>();
 template <>
 std::vector<std::string> names_of<PhotographModel>();

@@ -7,6 +7,7 @@
 #include "experiments/interrupt.h"
 #include "experiments/paper_parts.h"
 #include "experiments/run_kind.h"
+#include "experiments/run_part.h"
 
 namespace drape {
 
@@ -17,7 +18,8 @@ RunOutcome run_paper(const Settings& settings, OutputFolder& folder) {
   Json list = Json::array();
   for (const PaperPart& part : parts) {
     std::cerr << "Part " << list.size() + 1 << " of " << parts.size() << ": " << part.name << "\n";
-    const Json summary = run_part(part.name, part.settings, folder);
+    const Json summary =
+        run_part(part.name, run_kind, part.settings.experiment.kind, part.settings, folder);
     if (interrupted()) return outcome;
     list.push_back({{"name", part.name},
                     {"config", part.config.string()},

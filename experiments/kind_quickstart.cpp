@@ -7,8 +7,7 @@
 #include "core/durable_file.h"
 #include "experiments/figure.h"
 #include "experiments/interrupt.h"
-#include "experiments/kinds.h"
-#include "experiments/run_kind.h"
+#include "experiments/run_part.h"
 
 namespace drape {
 RunOutcome run_quickstart(const Settings& settings, OutputFolder& folder) {
@@ -16,16 +15,15 @@ RunOutcome run_quickstart(const Settings& settings, OutputFolder& folder) {
   RunOutcome outcome{"ok", {}};
 
   Settings dataset = settings;
-  dataset.experiment.kind = Kind::dataset;
   dataset.dataset.table = quickstart.table;
   dataset.dataset.rows = quickstart.fabrics;
-  outcome.summary["dataset"] = run_part("dataset", dataset, folder, drape_dataset);
+  outcome.summary["dataset"] = run_part("dataset", drape_dataset, Kind::dataset, dataset, folder);
   if (interrupted()) return outcome;
 
   Settings estimate = settings;
-  estimate.experiment.kind = Kind::estimate;
   estimate.estimate.dataset = std::filesystem::absolute(folder / "dataset/results.h5");
-  outcome.summary["estimate"] = run_part("estimate", estimate, folder);
+  outcome.summary["estimate"] =
+      run_part("estimate", run_estimate, Kind::estimate, estimate, folder);
   if (interrupted()) return outcome;
 
   // the estimates' table holds the dataset's columns as well: it is this run's own result
@@ -37,12 +35,12 @@ RunOutcome run_quickstart(const Settings& settings, OutputFolder& folder) {
 
   if (!quickstart.photograph.empty() && std::filesystem::exists(quickstart.photograph)) {
     Settings photograph = settings;
-    photograph.experiment.kind = Kind::photograph;
     photograph.photograph.files = {quickstart.photograph};
     photograph.photograph.mm_per_pixel = quickstart.mm_per_pixel;
     photograph.photograph.areal_density = quickstart.areal_density;
     photograph.estimate.method = FitMethod::levenberg_marquardt;
-    outcome.summary["photograph"] = run_part("photograph", photograph, folder);
+    outcome.summary["photograph"] =
+        run_part("photograph", run_photograph, Kind::photograph, photograph, folder);
   } else if (!quickstart.photograph.empty()) {
     std::cout << "No photograph at " << quickstart.photograph.string()
               << ": that part is skipped\n";

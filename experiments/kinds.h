@@ -21,7 +21,7 @@ struct RunOutcome {
 
 RunOutcome run_drape(const Settings& settings, OutputFolder& folder);
 RunOutcome run_dataset(const Settings& settings, OutputFolder& folder);
-/// The same without its picture.
+/// One table of it, without its picture: dataset.radii is no matter.
 RunOutcome drape_dataset(const Settings& settings, OutputFolder& folder);
 RunOutcome run_estimate(const Settings& settings, OutputFolder& folder);
 RunOutcome run_photograph(const Settings& settings, OutputFolder& folder);
@@ -38,6 +38,7 @@ RunOutcome run_ablation(const Settings& settings, OutputFolder& folder);
 RunOutcome run_gradient_precision(const Settings& settings, OutputFolder& folder);
 RunOutcome run_estimation_precision(const Settings& settings, OutputFolder& folder);
 RunOutcome run_branches(const Settings& settings, OutputFolder& folder);
+RunOutcome run_tag_comparison(const Settings& settings, OutputFolder& folder);
 RunOutcome run_paper(const Settings& settings, OutputFolder& folder);
 
 }  // namespace drape

@@ -8,6 +8,7 @@
 #include "core/profile.h"
 #include "core/random.h"
 #include "estimation/bending_rigidity.h"
+#include "estimation/tag_model.h"
 #include "experiments/model.h"
 
 namespace drape {
@@ -16,6 +17,36 @@ namespace {
 constexpr double kSharedBranch = 1e-6;  // [m]
 constexpr double kBranchStep = 0.1;     // of a log parameter: small beside the snaps of a drape
 constexpr double kPi = 3.14159265358979323846;
+
+/// Throws std::invalid_argument if the record has no tag.
+Tag tag_of(const Record& record) {
+  return {record.id,
+          record.category,
+          record.subcategory,
+          record.type,
+          composition_from_text(record.composition),
+          record.fabric.areal_density};
+}
+
+/// The first parameters of a fit and the weight as the record has it.
+Fabric first_fabric(const EstimateSettings& settings, const Record& record,
+                    BendingThreshold threshold, std::uint64_t seed) {
+  switch (settings.first) {
+    case FirstParameters::perturbed:
+      return perturbed(record.fabric, settings, seed);
+    case FirstParameters::weight:
+      return first_parameters(Structure::woven, record.fabric.areal_density);
+    case FirstParameters::tag: {
+      const std::vector<Parameter> all(all_parameters().begin(), all_parameters().end());
+      const Tag tag = tag_of(record);
+      Fabric fabric =
+          ParameterSpace{all, record.fabric}.decode(prior_from_tag(all, tag, threshold).mean);
+      fabric.areal_density = tag.areal_density;  // but for rounding
+      return fabric;
+    }
+  }
+  throw std::logic_error("first parameters without a function");
+}
 
 }  // namespace
 
@@ -103,6 +134,8 @@ std::optional<Prior> fit_prior(const Settings& settings, PriorKind kind, Structu
       return prior_about({parameters, start}, start, settings.estimate.prior_log_sd);
     case PriorKind::weight:
       return prior_from_weight(parameters, structure, start.areal_density);
+    case PriorKind::tag:
+      break;
   }
   throw std::logic_error("a prior without a function");
 }
@@ -122,10 +155,13 @@ EstimateRecord recover(const Settings& settings, const Potential& model, const R
   if (options.misfit.loss == OutlineLoss::signed_distance)
     observation.outline = contour(observation.coverage, observation.grid);
 
-  const Fabric start = perturbed(record.fabric, settings.estimate, seed_of_item(seed, 2));
+  const Fabric start =
+      first_fabric(settings.estimate, record, header.reading.threshold, seed_of_item(seed, 2));
   const Structure structure =
       record.category.empty() ? Structure::woven : structure_from_category(record.category);
-  options.prior = fit_prior(settings, settings.estimate.prior, structure, start);
+  options.prior = settings.estimate.prior == PriorKind::tag
+                      ? prior_from_tag(options.parameters, tag_of(record), header.reading.threshold)
+                      : fit_prior(settings, settings.estimate.prior, structure, start);
   const Potential target = as_draped(model, record, header.scene);
   const BranchTest branch = settings.estimate.start == EstimateStart::continued
                                 ? follow_target(target, record, start, options)

@@ -20,7 +20,8 @@ VecX with_noise(const VecX& profile, double sd, int harmonic_count, std::uint64_
 /// Without a prior: where there is one it needs the fabric, see fit_prior.
 EstimateOptions estimate_options(const Settings& settings);
 
-/// The prior of the estimated parameters; none for PriorKind::none.
+/// The prior of the estimated parameters; none for PriorKind::none. Not for PriorKind::tag, which
+/// takes a tag (prior_from_tag).
 std::optional<Prior> fit_prior(const Settings& settings, PriorKind kind, Structure structure,
                                const Fabric& start);
 

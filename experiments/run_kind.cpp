@@ -2,9 +2,6 @@
 
 #include <stdexcept>
 
-#include "experiments/interrupt.h"
-#include "experiments/summary.h"
-
 namespace drape {
 
 RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
@@ -41,24 +38,14 @@ RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
       return run_gradient_precision(settings, folder);
     case Kind::estimation_precision:
       return run_estimation_precision(settings, folder);
+    case Kind::tag_comparison:
+      return run_tag_comparison(settings, folder);
     case Kind::paper:
       return run_paper(settings, folder);
     case Kind::branches:
       return run_branches(settings, folder);
   }
   throw std::logic_error("a kind of experiment without a function");
-}
-
-nlohmann::ordered_json run_part(const std::string& part, const Settings& settings,
-                                const OutputFolder& folder, RunFunction run) {
-  const RunStart start;
-  OutputFolder part_folder(folder / part, settings);
-  if (part_folder.state() == OutputFolder::State::finished) return read_summary(part_folder);
-  const RunOutcome outcome = run(settings, part_folder);
-  if (interrupted()) return {{"status", "partial"}};
-  nlohmann::ordered_json result = summary(settings.experiment.kind, outcome, start);
-  write_summary(part_folder, result);
-  return result;
 }
 
 }  // namespace drape

@@ -40,6 +40,7 @@ enum class Kind {
   ablation,
   gradient_precision,
   estimation_precision,
+  tag_comparison,
   paper
 };
 
@@ -113,8 +114,11 @@ enum class EstimateStart {
   continued,  ///< a known target's own equilibrium, followed to the first parameters
 };
 
+/// The first parameters of a fit: the truth perturbed, or what the weight or the tag says.
+enum class FirstParameters { perturbed, weight, tag };
+
 /// What is known of a fabric before its outline is seen.
-enum class PriorKind { none, start, weight };
+enum class PriorKind { none, start, weight, tag };
 
 struct EstimateSettings {
   int fabrics = 20;
@@ -130,6 +134,7 @@ struct EstimateSettings {
   OutlineLoss loss = OutlineLoss::profile;
   std::vector<Parameter> parameters{Parameter::k_h, Parameter::k_bu, Parameter::k_bv,
                                     Parameter::k_bh};
+  FirstParameters first = FirstParameters::perturbed;
   double perturbation = 2;
   Perturb perturb = Perturb::up;
   int max_iterations = 60;
@@ -159,8 +164,10 @@ struct DatasetSettings {
   int rows = 0;                      ///< of the table; 0: all
   int shard = 1, shards = 1;         ///< which part of how many, from 1
   std::vector<int> only;             ///< indices of fabrics; empty: all of the shard
+  std::vector<double> radii;         ///< of specimens [m], a table each; empty: that of the scene
+  std::vector<StartProtocol> protocols;  ///< each drapes every fabric; empty: that of the settings
   int pixels = 256;
-  double image_width = 0.35584;  ///< [m]
+  double image_width = 0.35584;  ///< at the scene's specimen radius, others in proportion [m]
 };
 
 enum class CheckedLoss { profile, coverage, drape_coefficient };
@@ -300,6 +307,12 @@ struct EstimationPrecisionSettings {
   double cpu_seconds = 20;           ///< of a fit at 1000 vertices, in proportion to them [s]
 };
 
+/// What tag, picture and both tell of fabrics that a learned regressor has not seen.
+struct TagComparisonSettings {
+  int training = 1000;  ///< fabrics that the regressor learns from
+  int held_out = 40;    ///< fabrics that all are compared on
+};
+
 struct Settings {
   Experiment experiment;
   Fabric fabric;
@@ -326,6 +339,7 @@ struct Settings {
   BranchesSettings branches;
   PhotographsSettings photographs;
   IdentifiabilitySettings identifiability;
+  TagComparisonSettings tag_comparison;
 };
 
 }  // namespace drape

@@ -58,6 +58,8 @@ CAPTIONS = {
         "The gradient on both sides of a limit point, where a branch ends in a snap.",
     ("estimation_precision", "estimation_precision"):
         "What exact derivatives buy in a fit: outline and parameter error against CPU time.",
+    ("tag_comparison", "tag_comparison"):
+        "What a tag, the picture of one drape, both and a learned regressor tell of a fabric.",
     ("ablation", "ablation"):
         "What each ingredient of the model changes of a drape, and what it costs.",
     ("stability", "atlas"): "Where every method converges, stalls, diverges or runs out of time.",

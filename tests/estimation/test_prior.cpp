@@ -7,6 +7,7 @@
 #include "core/random.h"
 #include "estimation/bending_rigidity.h"
 #include "estimation/prior.h"
+#include "estimation/tag_model.h"
 #include "tests/support/shapes.h"
 
 namespace drape::test {
@@ -61,6 +62,27 @@ TEST(Prior, BendingFromWeightScattersAsMeasured) {
   EXPECT_NEAR(std::sqrt(C(2, 2)), 0.82, 0.08);
   EXPECT_NEAR(C(0, 1) / C(0, 0), 0.72, 0.05);
   EXPECT_NEAR(C(0, 2) / std::sqrt(C(0, 0) * C(2, 2)), 0.77, 0.13);
+}
+
+TEST(Prior, FromATagIsTheTagModel) {
+  const std::vector<Parameter> all(all_parameters().begin(), all_parameters().end());
+  Tag tag{"x", "Woven", "", "Twill", composition_from_text("Cotton 97; Spandex / Elastane 3"), 0.2};
+  for (const BendingThreshold threshold : {BendingThreshold::printed, BendingThreshold::radius}) {
+    const Prior prior = prior_from_tag(all, tag, threshold);
+    EXPECT_NO_THROW(validate(prior, kParameterCount));
+    EXPECT_NEAR(prior.mean[0], std::log(0.2), 1e-12);  // rounding of a mean of 4000
+    const auto ranges = parameter_ranges(tag, threshold);
+    for (const Parameter p : {Parameter::k_u, Parameter::k_h}) {
+      const auto i = static_cast<int>(p);
+      const ParameterRange& range = ranges[static_cast<size_t>(p)];
+      // normal in the logarithm: the percentiles of 4000 draws are good to 4 % of the deviation
+      const double sd = std::sqrt(prior.covariance(i, i));
+      EXPECT_NEAR(prior.mean[i], std::log(range.median), 0.1 * sd);
+      EXPECT_NEAR(2 * 1.645 * sd, std::log(range.high / range.low), 0.2 * sd);
+    }
+  }
+  tag.category = "none";
+  EXPECT_THROW(prior_from_tag(all, tag, BendingThreshold::radius), std::invalid_argument);
 }
 
 TEST(Prior, BadPriorsAreRefused) {

@@ -303,6 +303,8 @@ TEST(Config, SettingsMustFitTogether) {
   EXPECT_TRUE(set_error("scene.specimen_radius=0.05").starts_with("--set scene.specimen_radius"));
   EXPECT_TRUE(contains(set_error("experiment.kind=photograph"), "needs photograph.files"));
   EXPECT_TRUE(contains(set_error("experiment.kind=quickstart"), "needs quickstart.table"));
+  EXPECT_TRUE(contains(set_error("dataset.radii=[0.12]"), "only for kind \"dataset\""));
+  EXPECT_TRUE(contains(set_error("photograph.prior=tag"), "a photograph has none"));
   EXPECT_EQ(set_error("fabric.bending_law=secant"), "no error");
   EXPECT_TRUE(
       contains(read_error(std::nullopt, {assignment_from_set("experiment.kind=gradient_check"),

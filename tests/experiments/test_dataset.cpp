@@ -1,20 +1,13 @@
-// Datasets as a user meets them: cut into shards, merged, verified, exported, imported, killed.
+// Datasets as a user meets them: cut into shards, merged, verified, exported, imported.
 #include <gtest/gtest.h>
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "core/hdf5_file.h"
 #include "core/random.h"
 #include "core/records.h"
 #include "core/sha256.h"
 #include "tests/experiments/program_fixture.h"
-
-extern char** environ;
 
 namespace drape {
 namespace {
@@ -34,6 +27,19 @@ class Dataset : public ProgramInFolder {
   }
   std::string table(const std::string& run) const {
     return (scratch / run / "results.h5").string();
+  }
+
+  /// The fabrics of d.toml in one run, made once for all tests: its table.
+  std::string whole() const {
+    static const ScratchFolder folder;
+    if (!std::filesystem::exists(folder / "whole")) run("--out " + (folder / "whole").string());
+    return (folder / "whole/results.h5").string();
+  }
+  /// The same table, to be changed, as a/results.h5.
+  void copy_whole() const {
+    std::filesystem::create_directory(scratch / "a");
+    std::filesystem::copy_file(whole(), table("a"));
+    std::filesystem::copy_file(checksum_file(whole()), checksum_file(table("a")));
   }
 
   /// Whatever is not a time and not a name of the run.
@@ -63,14 +69,13 @@ class Dataset : public ProgramInFolder {
 };
 
 TEST_F(Dataset, ShardsMergeToTheWholeSet) {
-  run("--out whole");
   for (const char* k : {"1", "2", "3"})
     run("--out shard" + std::string(k) + " --shard " + k + "/3");
   EXPECT_EQ(read_records(table("shard2")).front().id, "4");
 
   expect_refused("dataset merge m.h5 shard1/results.h5 shard3/results.h5", "shard 2/3 is missing");
   expect_refused("dataset merge m.h5 shard1/results.h5 shard1/results.h5", "are both shard 1/3");
-  expect_refused("dataset merge m.h5 whole/results.h5", "is no shard");
+  expect_refused("dataset merge m.h5 " + whole(), "is no shard");
   expect_refused("run d.toml --out x --shard 4/3", "dataset.shard");
   expect_refused("run d.toml --out x --shard 4", "expected K/N");
 
@@ -80,8 +85,8 @@ TEST_F(Dataset, ShardsMergeToTheWholeSet) {
     const Ended merged = drape("dataset merge " + options + file + " " + parts);
     ASSERT_EQ(merged.exit_code, 0) << merged.text;
     EXPECT_TRUE(merged.says("12 records")) << merged.text;
-    expect_same((scratch / file).string(), table("whole"));
-    EXPECT_EQ(read_header(scratch / file).config, read_header(table("whole")).config);
+    expect_same((scratch / file).string(), whole());
+    EXPECT_EQ(read_header(scratch / file).config, read_header(whole()).config);
     expect_refused("dataset merge " + file + " " + parts, "is there already");
     const Ended verified = drape("dataset verify " + file);
     EXPECT_EQ(verified.exit_code, 0) << verified.text;
@@ -93,7 +98,7 @@ TEST_F(Dataset, ShardsMergeToTheWholeSet) {
 }
 
 TEST_F(Dataset, VerifyFindsWhatIsWrong) {
-  run("--out a --set dataset.fabrics=3");
+  copy_whole();
   const std::string good = scratch.read("a/results.h5");
   EXPECT_EQ(drape("dataset verify a/results.h5").exit_code, 0);
 
@@ -138,13 +143,13 @@ TEST_F(Dataset, VerifyFindsWhatIsWrong) {
 }
 
 TEST_F(Dataset, IsExportedAndMigrated) {
-  run("--out a --set dataset.fabrics=2");
+  copy_whole();
   ASSERT_EQ(drape("dataset export a/results.h5 --csv a.csv").exit_code, 0);
   const std::string csv = scratch.read("a.csv");
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 13);
   EXPECT_EQ(csv.find("id,name,category,"), 0u);
   expect_refused("dataset export a/results.h5 --csv a.csv", "is there already");
-  expect_refused("dataset export a/results.h5 --obj a.obj --record 2", "there is no record 2");
+  expect_refused("dataset export a/results.h5 --obj a.obj --record 12", "there is no record 12");
   expect_refused("dataset export a/results.h5", "option");
   expect_refused("dataset exprt a/results.h5", "did you mean 'export'?");
 
@@ -188,6 +193,51 @@ TEST_F(Dataset, IsExportedAndMigrated) {
   EXPECT_EQ(verify_checksum(scratch / "b.h5"), ChecksumState::matches);
 }
 
+TEST_F(Dataset, OfSeveralRadiiAndProtocols) {
+  const std::string several =
+      " --set dataset.radii=[0.15,0.12] --set 'dataset.protocols=[\"lobes\",\"coarse_ramp\"]'"
+      " --set dataset.fabrics=3";
+  run("--out a" + several);
+  const std::vector<Record> records = read_records(table("a"));
+  ASSERT_EQ(records.size(), 6u);
+  EXPECT_EQ(records[2].id, "1:lobes");
+  EXPECT_EQ(records[3].id, "1:coarse_ramp");
+  EXPECT_EQ(records[3].name, "1");
+  EXPECT_EQ(records[2].type, records[3].type);
+  EXPECT_EQ(to_vector(records[2].fabric), to_vector(records[3].fabric));
+  EXPECT_NE(records[2].stats.protocol, records[3].stats.protocol);
+
+  // the other radius: the same fabrics, a table that knows its radius, the same pixels per specimen
+  const std::string smaller = table("a/radius_120mm");
+  EXPECT_EQ(to_vector(read_records(smaller).at(4).fabric), to_vector(records[4].fabric));
+  const RecordsHeader first = read_header(table("a")), other = read_header(smaller);
+  EXPECT_EQ(first.scene.specimen_radius, 0.15);
+  EXPECT_EQ(other.scene.specimen_radius, 0.12);
+  // to rounding
+  EXPECT_NEAR(other.grid.pixel_size / first.grid.pixel_size, 0.8, 1e-12);
+  for (const std::string& file : {table("a"), smaller}) {
+    const Ended verified = drape("dataset verify " + file);
+    EXPECT_EQ(verified.exit_code, 0) << verified.text;
+  }
+  EXPECT_EQ(drape("dataset export " + smaller + " --csv a.csv").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(scratch / "a/radius_120mm/dataset.png"));
+
+  for (const char* k : {"1", "2"})
+    run("--out s" + std::string(k) + several + " --shard " + k + "/2");
+  for (const std::string part : {"/", "/radius_120mm/"}) {
+    std::filesystem::remove(scratch / "m.h5");
+    const Ended merged =
+        drape("dataset merge m.h5 s1" + part + "results.h5 s2" + part + "results.h5");
+    ASSERT_EQ(merged.exit_code, 0) << merged.text;
+    expect_same((scratch / "m.h5").string(), table("a" + part));
+  }
+  expect_refused("dataset merge n.h5 s1/results.h5 s2/radius_120mm/results.h5",
+                 "is not of the set");
+  expect_refused("validate d.toml --set dataset.radii=[0.08]", "larger than scene.support_radius");
+  expect_refused("validate d.toml --set 'dataset.protocols=[\"guided\"]'",
+                 "cannot hold \"guided\"");
+}
+
 TEST_F(Dataset, OfAGarmentProgramsTable) {
   scratch.write("t.csv",
                 "id,type,category,density,fSuK,fSvK,fHK,fBuK,fBvK,fBhK\n"
@@ -214,46 +264,6 @@ TEST_F(Dataset, FailuresAreReplayed) {
   ASSERT_EQ(again.size(), 1u);
   EXPECT_EQ(to_vector(again[0].fabric), to_vector(read_records(table("a")).at(2).fabric));
   expect_refused("run d.toml --out b --set dataset.only=[12]", "the set has 0 to 11");
-}
-
-// Killed at random moments until a session gets to the end by itself.
-TEST_F(Dataset, KilledAtAnyMomentItEndsTheSame) {
-  run("--out whole");
-  Random random(5);
-  int kills = 0;
-  for (;; ++kills) {
-    ASSERT_LT(kills, 200);
-    const std::string program = DRAPE_PROGRAM, config = (scratch / "d.toml").string(),
-                      out = (scratch / "killed").string();
-    std::vector<std::string> words{program, "run", config, "--threads", "1", "--out", out};
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    pid_t child = 0;
-    posix_spawn_file_actions_t quiet;
-    posix_spawn_file_actions_init(&quiet);
-    for (const int stream : {1, 2})
-      posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", O_WRONLY, 0);
-    ASSERT_EQ(posix_spawn(&child, program.c_str(), &quiet, nullptr, arguments.data(), environ), 0);
-    posix_spawn_file_actions_destroy(&quiet);
-    int status = 0;
-    bool ended = false;
-    if (kills < 8) {  // then it may go on
-      std::this_thread::sleep_for(
-          std::chrono::microseconds(static_cast<int>(4e5 * random.uniform())));
-      kill(child, SIGKILL);
-    }
-    ASSERT_EQ(waitpid(child, &status, 0), child);
-    ended = WIFEXITED(status);
-    if (ended) {
-      EXPECT_EQ(WEXITSTATUS(status), 0);
-      break;
-    }
-  }
-  expect_same(table("killed"), table("whole"));
-  EXPECT_EQ(read_header(table("killed")).config, read_header(table("whole")).config);
-  EXPECT_EQ(verify_checksum(table("killed")), ChecksumState::matches);
-  RecordProperty("kills", kills);
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ import results as records  # noqa: E402
 import robustness  # noqa: E402
 import snap_gradient  # noqa: E402
 import stability  # noqa: E402
+import tag_comparison  # noqa: E402
 import style  # noqa: E402
 import validation  # noqa: E402
 import work_precision  # noqa: E402
@@ -292,6 +293,14 @@ def identifiability_summary():
     return dict(parameters=["k_h", "k_bu"], items=items + [dict(status="stagnated")])
 
 
+def tag_comparison_numbers():
+    methods = ("tag", "picture", "both", "learned")
+    return dict(held_out=40, compared=38, training=1000, learned=True, git_commit="0123456789ab",
+                log_errors={name: {m: [0.1 * k, 0.2 * k, 0.4 * k]
+                                   for k, m in enumerate(methods, start=1)}
+                            for name in ("k_u", "k_v", "k_h", "k_bu", "k_bv", "k_bh")})
+
+
 class Figures(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -368,6 +377,15 @@ class Figures(unittest.TestCase):
         page = snap_gradient.page(snap_result())
         self.check_layout(page)
         self.assertIn("1.2345 times", self.words(page))
+        numbers = tag_comparison_numbers()
+        page = tag_comparison.page(numbers)
+        self.check_layout(page)
+        self.assertIn("learned from 1000 fabrics", self.words(page))
+        for of in numbers["log_errors"].values():
+            del of["learned"]
+        page = tag_comparison.page(numbers | {"learned": False})
+        self.check_layout(page)
+        self.assertIn("no scikit-learn", self.words(page))
         self.check_layout(stability.page(stability_atlas()))
         self.check_layout(estimation_precision.page(estimation_precision_chart()))
         chart = work_precision_chart()

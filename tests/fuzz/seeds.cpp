@@ -1,0 +1,68 @@
+// Writes the seeds of the fuzzers into the folder given: files of the project's own making.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "estimation/random_tags.h"
+
+using namespace drape;
+namespace fs = std::filesystem;
+
+namespace {
+
+void write(const fs::path& file, const std::string& bytes) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+std::string tags_as_table() {
+  std::string table = "id,category,subcategory,type,composition_percent,areal_density_gsm\n";
+  for (const Tag& tag : random_tags(4, 1))
+    table += tag.id + "," + tag.category + "," + tag.subcategory + "," + tag.type + "," +
+             composition_text(tag.composition) + "," + std::to_string(1e3 * tag.areal_density) +
+             "\n";
+  return table;
+}
+
+/// A silhouette as PNG or JPEG, in the form that fuzz_photograph takes for "as it is": its choices
+/// are read from the end.
+std::string silhouette(const char* format) {
+  cv::Mat grey(80, 80, CV_8U, cv::Scalar(0));
+  cv::circle(grey, {40, 40}, 30, cv::Scalar(255), cv::FILLED, cv::LINE_AA);
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(format, grey, bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: " << argv[0] << " FOLDER\n";
+    return 2;
+  }
+  const fs::path folder = argv[1];
+  write(folder / "tables/tags", tags_as_table());
+  write(folder / "tables/parameters",
+        "id,type,category,subcategory,composition_percent,density,fSuK,fSvK,fHK,fBuK,fBvK,fBhK,"
+        "fBucklingStiffnessU,fBucklingStiffnessV,fBucklingStiffnessH,fBuLR,fBvLR,fBhLR\n"
+        "x,Twill,Woven,,Cotton 97; Spandex / Elastane 3,168,1e6,1e6,5e4,20000,2e4,2e4,.8,.8,.8,.3,"
+        ".3,.3\n");
+  const std::string choices("\x80\x80\x80\x80\x80\x80\x80\x80\x00\x01", 10);  // scale, bits
+  write(folder / "photograph/png", silhouette(".png") + choices);
+  write(folder / "photograph/jpeg", silhouette(".jpg") + choices);
+  std::string disc(60, '\x14');  // radii of 20 and more of the rest
+  write(folder / "photograph/drawn", disc + std::string("\xff\x00\x50\x50\x00\x00", 6));
+  // edits of every sort and table
+  for (int table = 0; table < 4; ++table)
+    for (int sort = 0; sort < 8; ++sort) {
+      std::string bytes(48, '\0');
+      for (size_t i = 0; i < bytes.size(); ++i)
+        bytes[i] = static_cast<char>(37 * sort + 11 * table + static_cast<int>(i * i));
+      bytes += static_cast<char>(sort);
+      bytes += static_cast<char>(table);
+      write(folder / ("records/" + std::to_string(table) + std::to_string(sort)), bytes);
+    }
+}
