@@ -15,7 +15,8 @@
 namespace drape {
 namespace {
 
-// Steps in log parameters, the best of 1e-2 .. 1e-5 for solves to a residual of 1e-8.
+// Steps in log parameters: well above what the tolerance of a solve leaves open in a radius, well
+// below where the outline bends.
 constexpr double kForwardStep = 1e-4;
 constexpr double kCentralStep = 1e-3;
 constexpr double kFirstStep = 0.2;       // of the methods without derivatives
