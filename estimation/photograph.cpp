@@ -28,6 +28,9 @@ constexpr double kScaleTolerance = 0.03;
 constexpr double kLeastContrast = 32;
 /// Below about 18 pixels of radius a fold is narrower than a pixel.
 constexpr int kLeastPixels = 1000;
+/// More than any camera's: a damaged file of some hundred bytes may claim nine times as many, and
+/// each takes ten bytes of memory.
+constexpr size_t kMostPixels = 100'000'000;
 /// Grey values further than this from the silhouette's edge are noise.
 constexpr int kBand = 2;  // [pixels]
 /// Reentrant stretches of a ray shorter than this are not seen.
@@ -80,6 +83,9 @@ cv::Mat read_grey(const std::filesystem::path& file) {
     fail(file, "the image cannot be decoded (" + error.err + "); a PNG or JPEG is expected");
   }
   if (grey.empty()) fail(file, "not an image, or a damaged one; a PNG or JPEG is expected");
+  if (grey.total() > kMostPixels)
+    fail(file, text("the image has ", grey.cols, " x ", grey.rows,
+                    " pixels; scale it down to at most ", static_cast<double>(kMostPixels)));
   return grey;
 }
 
