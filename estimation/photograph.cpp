@@ -32,6 +32,9 @@ constexpr int kLeastPixels = 1000;
 /// Widths of an edge, from a tenth covered to nine tenths, up to which it is sharp: that many
 /// pixels, or that share of the silhouette's mean radius. Masks of real drapes have 0.5 to 2.
 constexpr double kSharpEdge = 4, kBlurredShare = 0.05;
+/// More than any camera's: a damaged file of some hundred bytes may claim nine times as many, and
+/// each takes ten bytes of memory.
+constexpr size_t kMostPixels = 100'000'000;
 /// Grey values further than this from the silhouette's edge are noise.
 constexpr int kBand = 2;  // [pixels]
 /// Reentrant stretches of a ray shorter than this are not seen.
@@ -84,6 +87,9 @@ cv::Mat read_grey(const std::filesystem::path& file) {
     fail(file, "the image cannot be decoded (" + error.err + "); a PNG or JPEG is expected");
   }
   if (grey.empty()) fail(file, "not an image, or a damaged one; a PNG or JPEG is expected");
+  if (grey.total() > kMostPixels)
+    fail(file, text("the image has ", grey.cols, " x ", grey.rows,
+                    " pixels; scale it down to at most ", static_cast<double>(kMostPixels)));
   return grey;
 }
 

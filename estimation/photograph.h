@@ -42,10 +42,10 @@ struct Photograph {
 
 /// Reads a mask (PNG or JPEG; an orientation stored in the file is applied). Blobs and holes below
 /// a thousandth of the silhouette's area are specks and ignored. Throws PhotographError on: a scale
-/// that is not positive; a file that is missing, empty, cut short or no image; a uniform image; a
-/// silhouette that touches the border, has holes, comes in several blobs or in fewer than 1000
-/// pixels; a blurred edge; an area that is not between the support's and the specimen's, 3 % of
-/// scale allowed for; a centroid outside of the silhouette.
+/// that is not positive; a file that is missing, empty, cut short or no image; more than 1e8
+/// pixels; a uniform image; a silhouette that touches the border, has holes, comes in several blobs
+/// or in fewer than 1000 pixels; a blurred edge; an area that is not between the support's and the
+/// specimen's, 3 % of scale allowed for; a centroid outside of the silhouette.
 Photograph read_photograph(const std::filesystem::path& file, double metres_per_pixel,
                            const Scene& scene);
 

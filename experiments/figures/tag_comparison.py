@@ -58,7 +58,8 @@ class Table:
     def estimated(self):
         """The parameters that were estimated, and where there is an estimate."""
         log_sd = self.estimates["params_estimated_log_sd"]
-        names = [name for name in self.truth if np.isfinite(log_sd[name]).any()]
+        names = [name for name in self.config["estimate"]["parameters"]
+                 if np.isfinite(log_sd[name]).any()]
         return names, np.all([np.isfinite(log_sd[name]) for name in names], axis=0)
 
 

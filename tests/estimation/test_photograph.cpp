@@ -231,6 +231,7 @@ TEST_F(PhotographTest, RefusesAFileThatIsNoImage) {
 TEST_F(PhotographTest, RefusesWhatIsNoSilhouette) {
   for (const int grey : {0, 128, 255})
     expect_refused(saved(cv::Mat(kPixels, kPixels, CV_8U, cv::Scalar(grey))), "uniform");
+  expect_refused(saved(cv::Mat::zeros(10001, 10000, CV_8U)), "10000 x 10001 pixels");
   cv::Mat faint(kPixels, kPixels, CV_8U, cv::Scalar(100));
   draw_disc(faint, 128, 128, 90, 120);
   expect_refused(saved(faint), "uniform (grey 100 to 120)");
