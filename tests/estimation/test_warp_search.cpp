@@ -36,7 +36,7 @@ Picture turned_picture() {
 EstimateOptions short_options() {
   EstimateOptions options;
   options.parameters = {Parameter::k_bu, Parameter::k_bv};
-  options.max_solves = 25;
+  options.max_solves = 80;
   options.prior = prior_about({options.parameters, anisotropic_fabric()}, anisotropic_fabric(), 1);
   return options;
 }

@@ -260,7 +260,7 @@ def texts(page):
     page.figure.canvas.draw()
     found = list(page.figure.texts)
     for axes in page.figure.axes:
-        found += axes.texts
+        found += axes.texts + [axes.title]
         for axis in (axes.xaxis, axes.yaxis) if axes.axison else ():
             low, high = sorted(axis.get_view_interval())
             found += [tick.label1 for tick in axis.get_major_ticks() + axis.get_minor_ticks()
