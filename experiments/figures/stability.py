@@ -20,7 +20,8 @@ OUTCOMES = {  # outcome -> colour, words
 CASES = {"vanishing_bending": "no bending", "ratio_1e8": "ratio 1e8", "needles": "needles",
          "threshold_softening": "softening", "threshold_stiffening": "stiffening",
          "secant": "secant law", "near_snap": "near a snap"}
-LABEL, TOP, ROW, GAP, CELL = 42, 35, 13, 5, 4.2
+LABEL, TOP, ROW, GAP = 42, 35, 13, 5
+CELL, LEAST_MAP = 4.2, 20  # width of a cell, more where a map would be narrower than its words
 
 
 def page(atlas):
@@ -40,7 +41,8 @@ def page(atlas):
                for size in (sizes if steps else [])]
     if cases:
         groups.append(("hard cases", "", "", [("case", name) for name in cases], len(cases)))
-    width = LABEL + sum(GAP + CELL * group[4] for group in groups) + 6
+    cell = max(CELL, LEAST_MAP / min(group[4] for group in groups))
+    width = LABEL + sum(GAP + cell * group[4] for group in groups) - GAP + 6
     methods = list(atlas["methods"])
     figure = style.Page(max(width, 180), TOP + ROW * len(methods) + 44)
     head(figure, atlas, ratios, densities, steps)
@@ -50,15 +52,15 @@ def page(atlas):
         figure.text(6, top + ROW / 2 - 1, atlas["methods"][method]["label"], va="center")
         left = LABEL
         for title, across, up, places, columns in groups:
-            draw(figure, left, top, columns, [look.get((method, *place)) for place in places])
+            draw(figure, left, top, cell, columns, [look.get((method, *place)) for place in places])
             if row == 0:
                 figure.text(left, top - 5.5, title)
             if row == len(methods) - 1 and across:
                 figure.text(left, top + ROW - 1, f"{across} →\n{up} ↑")
-            left += GAP + CELL * columns
+            left += GAP + cell * columns
     below = TOP + ROW * len(methods)
     for i, name in enumerate(cases):
-        figure.text(width - 6 - GAP - CELL * (len(cases) - i - 0.5), below - 0.5, CASES[name],
+        figure.text(width - 6 - cell * (len(cases) - i - 0.5), below - 0.5, CASES[name],
                     rotation=90, ha="center")
     legend(figure, below + 24)
     return figure
@@ -92,12 +94,12 @@ def head(figure, atlas, ratios, densities, steps):
                 "Numbers: decimal exponent of the smallest residual.")
 
 
-def draw(figure, left, top, columns, looks):
+def draw(figure, left, top, cell, columns, looks):
     """`looks` (colour and number) row by row from below; cells without one are left out."""
     if not any(looks):
         return
     rows = len(looks) // columns
-    axes = figure.axes(left, top, CELL * columns, ROW - 2)
+    axes = figure.axes(left, top, cell * columns, ROW - 2)
     axes.set(xlim=(0, columns), ylim=(0, rows))
     axes.axis("off")
     for i, look in enumerate(looks):

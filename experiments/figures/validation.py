@@ -190,11 +190,15 @@ def bias_table(figure, top, bias):
         often = max(row["nodes"], key=row["nodes"].get, default="–")
         nodes = often if len(counts) < 2 else f"{often} ({counts[0]}–{counts[-1]})"
         figure.text(left, line, group, fontsize=6)
-        figure.text(left + 36, line, f"{_value(row['mean'], 1)} ± {_value(row['sd'], 2)} "
-                    f"({_value(row['sd_over_rotations'], 2)})", fontsize=6)
-        figure.text(left + 59, line, f"{_value(row['coherence_with_fabric'], 2)} | "
+        figure.text(left + 42, line, f"{_value(row['mean'], 1)} ± {_spread(row['sd'])} "
+                    f"({_spread(row['sd_over_rotations'])})", fontsize=6)
+        figure.text(left + 64.2, line, f"{_value(row['coherence_with_fabric'], 2)} | "
                     f"{_value(row['coherence_with_mesh'], 2)}", fontsize=6)
-        figure.text(left + 73, line, nodes, fontsize=6)
+        figure.text(left + 77.3, line, nodes, fontsize=6)
+
+
+def _spread(number):
+    return _value(number, 2 if number is None or number < 10 else 1)
 
 
 def _value(number, digits):
