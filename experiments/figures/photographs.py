@@ -106,7 +106,8 @@ def rigidities(axes, fabrics, model):
             axes.plot([i] * 3, 1e6 * np.array(item["rigidity"]), "o", color=style.ESTIMATE,
                       markersize=1.8, alpha=0.6)
     axes.set(yscale="log", xlabel="fabric", xlim=(-1, len(fabrics)))
-    axes.set_xticks(range(len(fabrics)), [str(row["fabric"]) for row in fabrics], fontsize=6)
+    axes.set_xticks(range(len(fabrics)), [str(row["fabric"]) for row in fabrics], fontsize=6,
+                    rotation=90 if len(fabrics) > 12 else 0)
     axes.set_title("$B_u$, $B_v$, $B_{45}$ of every fit, µN m", fontsize=7)
 
 
