@@ -101,14 +101,16 @@ def figures_of(folder):
 
 
 def caption(kind, path):
-    return CAPTIONS.get((kind, path.stem), path.stem.replace("_", " ").capitalize() + ".")
+    words = f"{path.stem} of {path.parent.name}".replace("_", " ").capitalize() + "."
+    return CAPTIONS.get((kind, path.stem), words)
 
 
 def collected(folder, name, pictures):
     """Copies the pictures of a part, with their PDF, to the folder; returns (picture, stem)."""
     copies = []
     for picture in pictures:
-        stem = name if picture.stem == name else f"{name}_{picture.stem}"
+        words = [name, picture.parent.name, picture.stem]  # part, its subfolder, figure
+        stem = "_".join(dict.fromkeys(words))  # without what is said twice
         for suffix in (".png", ".pdf"):
             source = picture.with_suffix(suffix)
             if source.exists():
@@ -127,7 +129,8 @@ def figure_html(number, kind, picture, stem):
 
 def provenance_html(part, summary, config):
     facts = "".join(f"<tr><td>{label}</td><td>{html.escape(fact(summary[key]))}</td></tr>"
-                    for key, label in FACTS.items() if key in summary)
+                    for key, label in FACTS.items()
+                    if isinstance(summary.get(key), (int, float, str)))
     shown = config_name(part["config"])
     command = f"./experiments/run {shown} --out DIR"
     status = "" if part["status"] == "ok" else (

@@ -85,7 +85,8 @@ class Figures(FigureTest):
         page.save(part / "units")
         (part / "config.toml").write_text("[robustness]\nfabrics = 3  # <few>\n")
         (part / "summary.json").write_text(json.dumps(dict(
-            kind="robustness", git_commit="abc123", cpu_seconds=12.4, certified_minima=3)))
+            kind="robustness", git_commit="abc123", cpu_seconds=12.4, certified_minima=3,
+            fabrics=["a list is no number to read"])))
         parts = [dict(name="robustness", config="/somewhere/experiments/configs/robustness.toml",
                       status="partial")]
         (self.folder / "parts.json").write_text(json.dumps(parts))
@@ -96,6 +97,7 @@ class Figures(FigureTest):
                      "./experiments/run experiments/configs/robustness.toml", "&lt;few&gt;",
                      "Status: partial", "<td>certified minima</td><td>3</td>"):
             self.assertIn(said, text)
+        self.assertNotIn("a list is no number", text)
         self.assertTrue((self.folder / "robustness_units.pdf").exists())
         (part / "summary.json").unlink()
         done = self.run_script("paper.py", self.folder, "--out", self.folder / "figures")
