@@ -5,7 +5,6 @@ of target, start and estimate, its tag and its parameters.
     /usr/bin/python3 drape_sheet.py RESULTS.h5 --out DIR/sheet      writes sheet.png and sheet.pdf
 """
 
-import argparse
 import textwrap
 
 import numpy as np
@@ -134,14 +133,5 @@ def table(page, left, top, record):
               color="#666666" if estimate.branch_shared else style.WARNING)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("results", help="a results.h5 of Drape")
-    parser.add_argument("--out", required=True, help="path of the sheet without its suffix")
-    arguments = parser.parse_args()
-    for file in sheet(records.read(arguments.results)).save(arguments.out):
-        print(file)
-
-
 if __name__ == "__main__":
-    main()
+    records.draw("a run", __doc__, sheet)

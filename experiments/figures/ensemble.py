@@ -4,8 +4,6 @@
     /usr/bin/python3 ensemble.py RESULTS.h5 --out DIR/ensemble     writes ensemble.png and ensemble.pdf
 """
 
-import argparse
-
 import numpy as np
 
 import results as records
@@ -78,14 +76,5 @@ def outline(axes, centre, radius, colour):
               edgecolor=colour, linewidth=0.7, zorder=3)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("results", help="a results.h5 of kind drape with an ensemble")
-    parser.add_argument("--out", required=True, help="path of the figure without its suffix")
-    arguments = parser.parse_args()
-    for file in picture(records.read(arguments.results)).save(arguments.out):
-        print(file)
-
-
 if __name__ == "__main__":
-    main()
+    records.draw("a run of kind drape with an ensemble", __doc__, picture)

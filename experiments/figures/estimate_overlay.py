@@ -5,9 +5,6 @@ from above and the outlines of target, start and estimate; then the parameters.
     /usr/bin/python3 estimate_overlay.py RESULTS.h5 --out DIR/overlay   writes overlay.png and .pdf
 """
 
-import argparse
-import sys
-
 import numpy as np
 
 import results as records
@@ -19,8 +16,12 @@ ROW = PICTURE + 12
 HEAD = 11
 
 
-def overlay(results, estimated):
-    """The page of one fabric: a row for each of its records, which share an estimate."""
+def page_of(results):
+    """The page of one fabric: a row for each record with an estimate, which they share."""
+    estimated = [record for record in results.records if record.estimate]
+    fabrics = {tuple(record.estimate.parameters.values()) for record in estimated}
+    if len(fabrics) != 1:
+        raise ValueError(f"holds estimates of {len(fabrics)} fabrics, this figure shows exactly one")
     first = estimated[0]
     table_top = HEAD + ROW * len(estimated) + 2
     page = style.Page(2 * PICTURE + 22, table_top + 4 * len(style.PARAMETERS) + 31)
@@ -97,21 +98,5 @@ def rigidity(page, left, top, estimate):
                       ha="right", fontsize=8)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("results", help="a results.h5 of Drape")
-    parser.add_argument("--out", required=True, help="path of the figure without its suffix")
-    arguments = parser.parse_args()
-    results = records.read(arguments.results)
-    estimated = [record for record in results.records if record.estimate]
-    fabrics = {tuple(record.estimate.parameters.values()) for record in estimated}
-    if len(fabrics) != 1:
-        print(f"{arguments.results}: holds estimates of {len(fabrics)} fabrics, this figure shows "
-              "exactly one", file=sys.stderr)
-        sys.exit(2)
-    for file in overlay(results, estimated).save(arguments.out):
-        print(file)
-
-
 if __name__ == "__main__":
-    main()
+    records.draw("a run of kind estimate", __doc__, page_of)

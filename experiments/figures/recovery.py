@@ -4,8 +4,6 @@
     /usr/bin/python3 recovery.py RESULTS.h5 --out DIR/recovery      writes recovery.png and .pdf
 """
 
-import argparse
-
 import numpy as np
 from matplotlib.ticker import NullFormatter
 
@@ -104,15 +102,5 @@ def legend(page, fits, total):
         left += 52
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", help="results.h5 of a run of kind estimate")
-    parser.add_argument("--out", required=True, help="path and stem of the files to write")
-    arguments = parser.parse_args()
-    for path in page_of(records.read(arguments.results)).save(arguments.out):
-        print(path)
-
-
 if __name__ == "__main__":
-    main()
+    records.draw("a run of kind estimate", __doc__, page_of)

@@ -4,7 +4,6 @@
     /usr/bin/python3 render.py RESULTS.h5 --out DIR/renders     writes renders.png and renders.pdf
 """
 
-import argparse
 import shutil
 import subprocess
 import sys
@@ -87,7 +86,10 @@ def vectors(rows, kind=".4f"):
 
 
 def rendered(text):
-    """The picture of a scene. Ends with exit code 1 where POV-Ray fails."""
+    """The picture of a scene. Ends with exit code 2 without POV-Ray and 1 where it fails."""
+    if shutil.which("povray") is None:
+        print("POV-Ray (Debian package povray) is not installed", file=sys.stderr)
+        sys.exit(2)
     with tempfile.TemporaryDirectory() as folder:
         source, picture = Path(folder) / "drape.pov", Path(folder) / "drape.png"
         source.write_text(text, encoding="ascii")
@@ -128,18 +130,5 @@ def page_of(results):
     return page
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", help="results.h5 of a run")
-    parser.add_argument("--out", required=True, help="path and stem of the files to write")
-    arguments = parser.parse_args()
-    if shutil.which("povray") is None:
-        print("POV-Ray (Debian package povray) is not installed", file=sys.stderr)
-        sys.exit(2)
-    for path in page_of(records.read(arguments.results)).save(arguments.out):
-        print(path)
-
-
 if __name__ == "__main__":
-    main()
+    records.draw("a run", __doc__, page_of)

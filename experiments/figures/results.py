@@ -1,5 +1,6 @@
 """Reads a results.h5 (schema drape-records) for the figures. Lengths stay in metres."""
 
+import argparse
 import sys
 from dataclasses import dataclass, field
 
@@ -52,6 +53,25 @@ class Results:
     rest_uv: np.ndarray
     triangles: np.ndarray
     records: list = field(default_factory=list)
+
+
+def draw(content, description, page):
+    """Command line of a figure: reads a results.h5 of `content` and saves page(results).
+
+    Ends with exit code 2 where the file cannot be read, or holds what page refuses (ValueError).
+    """
+    parser = argparse.ArgumentParser(description=description,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", help=f"results.h5 of {content}")
+    parser.add_argument("--out", required=True, help="path and stem of the files to write")
+    arguments = parser.parse_args()
+    try:
+        drawn = page(read(arguments.results))
+    except ValueError as error:
+        print(f"{arguments.results}: {error}", file=sys.stderr)
+        sys.exit(2)
+    for path in drawn.save(arguments.out):
+        print(path)
 
 
 def read(path):

@@ -45,8 +45,7 @@ class Figures(FigureTest):
     def test_overlay_is_readable(self):
         for outcome in ("succeeded", "the guide could not be released at kappa = 0.01: snap"):
             write(self.file, 1, outcomes=(outcome,))
-            results = records.read(self.file)
-            page = estimate_overlay.overlay(results, results.records[:1])
+            page = estimate_overlay.page_of(records.read(self.file))
             self.check_layout(page)
             self.assertEqual(outcome != "succeeded", "did not succeed" in self.words(page))
 
@@ -142,7 +141,8 @@ class Figures(FigureTest):
     def test_scripts_write_both_files(self):
         write(self.file, 1)
         for script, stem in (("drape_sheet.py", "sheet"), ("estimate_overlay.py", "overlay"),
-                             ("dataset.py", "dataset")):
+                             ("dataset.py", "dataset"), ("ensemble.py", "ensemble"),
+                             ("recovery.py", "recovery")):
             done = self.run_script(script, self.file, "--out", self.folder / "new" / stem)
             self.assertEqual(done.returncode, 0, done.stderr)
             files = [self.folder / "new" / f"{stem}.{suffix}" for suffix in ("png", "pdf")]
@@ -178,8 +178,9 @@ class Figures(FigureTest):
                 self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
                 self.assertIn(str(file), done.stderr)
         write(self.file, 2)
-        self.assertEqual(self.run_script("estimate_overlay.py", self.file, "--out",
-                                         self.folder / "overlay").returncode, 2)
+        done = self.run_script("estimate_overlay.py", self.file, "--out", self.folder / "overlay")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(f"{self.file}: holds estimates of 2 fabrics", done.stderr)
 
 
 if __name__ == "__main__":
