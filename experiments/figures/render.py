@@ -65,20 +65,12 @@ def scene(results, positions, colour):
     """The drape as a scene of POV-Ray: millimetres, y up."""
     points = 1e3 * positions[:, [0, 2, 1]]
     triangles = results.triangles
-    normals = vertex_normals(points, triangles)
+    normals = style.vertex_normals(points, triangles)
     return SCENE.format(
         aspect=PIXELS[0] / PIXELS[1], pedestal=PEDESTAL, support=1e3 * results.support_radius,
         column=1e3 * results.support_radius - PENETRATION,
         colour=", ".join(f"{c ** 2.2:.3f}" for c in colour), count=len(points), faces=len(triangles),
         points=vectors(points), normals=vectors(normals), triangles=vectors(triangles, "d"))
-
-
-def vertex_normals(points, triangles):
-    a, b, c = (points[triangles[:, i]] for i in range(3))
-    normals = np.zeros_like(points)
-    for i in range(3):
-        np.add.at(normals, triangles[:, i], np.cross(b - a, c - a))
-    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
 
 
 def vectors(rows, kind=".4f"):

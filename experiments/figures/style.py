@@ -161,14 +161,18 @@ def _lit(normals):
     return 0.15 + 0.85 * np.clip(normals @ (light / np.linalg.norm(light)), 0, 1)
 
 
-def _brightness(points, triangles):
-    """One value a vertex. Deep parts get less of the ambient light."""
+def vertex_normals(points, triangles):
+    """Unit normals, one a vertex: those of its triangles weighted by area."""
     a, b, c = (points[triangles[:, i]] for i in range(3))
-    areas = np.cross(b - a, c - a)
     normals = np.zeros_like(points)
     for i in range(3):
-        np.add.at(normals, triangles[:, i], areas)
+        np.add.at(normals, triangles[:, i], np.cross(b - a, c - a))
+    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+
+
+def _brightness(points, triangles):
+    """One value a vertex. Deep parts get less of the ambient light."""
+    normals = vertex_normals(points, triangles)
     normals *= np.where(normals[:, 2:] < 0, -1, 1)  # the side that is seen
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     depth = points[:, 2] / min(points[:, 2].min(), -1e-9)
     return _lit(normals) * (1 - 0.3 * np.clip(depth, 0, 1))

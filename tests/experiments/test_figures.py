@@ -73,8 +73,14 @@ class Figures(FigureTest):
         count = len(results.rest_uv)
         self.assertIn(f"vertex_vectors {{ {count}, ", scene)
         self.assertIn(f"face_indices {{ {len(results.triangles)}, ", scene)
-        normals = render.vertex_normals(chosen[0].positions, results.triangles)
-        np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, rtol=1e-12)
+
+    def test_normals_of_vertices_weigh_triangles_by_area(self):
+        # a horizontal triangle of area 3/2 and an upright one of area 1/2 share the vertices 0, 1
+        points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 3, 0], [0, 0, 1]])
+        normals = style.vertex_normals(points, np.array([[0, 1, 2], [0, 1, 3]]))
+        np.testing.assert_allclose(normals[0], np.array([0, -1, 3]) / np.sqrt(10), atol=1e-15)
+        np.testing.assert_allclose(normals[2], [0, 0, 1], atol=1e-15)
+        np.testing.assert_allclose(normals[3], [0, -1, 0], atol=1e-15)
 
     def test_paper_holds_figures_and_where_they_come_from(self):
         part = self.folder / "robustness"
