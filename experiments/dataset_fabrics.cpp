@@ -41,6 +41,14 @@ Record tagged(const Tag& tag, const Fabric& fabric) {
   return record;
 }
 
+void copy_tag(const Record& from, Record& to) {
+  to.name = from.name;
+  to.category = from.category;
+  to.subcategory = from.subcategory;
+  to.type = from.type;
+  to.composition = from.composition;
+}
+
 DatasetFabrics::DatasetFabrics(const Settings& settings)
     : settings_(settings),
       listed_(listed_fabrics(settings.dataset)),

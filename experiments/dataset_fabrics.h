@@ -12,6 +12,8 @@ namespace drape {
 
 /// The record of a fabric with its tag, no drape yet.
 Record tagged(const Tag& tag, const Fabric& fabric);
+/// Name and tag of one record become those of another.
+void copy_tag(const Record& from, Record& to);
 
 class DatasetFabrics {
  public:

@@ -119,11 +119,7 @@ RunOutcome drape_dataset(const Settings& settings, OutputFolder& folder) {
       const Record tag = fabrics[item.fabric];
       Record record = drape_record(item.settings, discretization, tag.fabric);
       record.id = record_id(tag, item.settings);
-      record.name = tag.name;
-      record.category = tag.category;
-      record.subcategory = tag.subcategory;
-      record.type = tag.type;
-      record.composition = tag.composition;
+      copy_tag(tag, record);
       store.save(i, record);
       if (!converged(record)) progress.note("fabric " + record.id + ": " + record.stats.status);
       progress.advance();

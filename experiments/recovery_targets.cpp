@@ -81,11 +81,8 @@ Record RandomTargets::operator[](int index) const {
     Potential potential = make_potential(discretization_, drawn.fabric, chosen);
     const Equilibrium target = drape(chosen, potential).equilibrium;
     Record record = make_record(chosen, potential, target);
+    copy_tag(drawn, record);
     record.id = record.name = std::to_string(index);
-    record.category = drawn.category;
-    record.subcategory = drawn.subcategory;
-    record.type = drawn.type;
-    record.composition = drawn.composition;
     if (!target.converged() ||
         within(100 * record.observation.drape_coefficient, estimate.drape_coefficient))
       return record;
