@@ -65,8 +65,7 @@ class SnapStudy {
                    {"negative_eigenvalues_beyond", snap->fold.negative_eigenvalues},
                    {"vertex_jump", snap->vertex_jump},
                    {"energy_drop", snap->energy_drop},
-                   {"last_natural_step_distance", fold - before->s},
-                   {"rows", Json::array()}};
+                   {"last_natural_step_distance", fold - before->s}};
     options_.smallest_step = kCloseStep;
     std::vector<double> distances = settings_.gradient_precision.distances;
     std::sort(distances.begin(), distances.end());
