@@ -10,6 +10,19 @@
 #include "experiments/run_part.h"
 
 namespace drape {
+namespace {
+
+/// The rendered drapes of a table, drawn anew only after the table: they take far longer than a
+/// figure.
+void draw_renders(const std::filesystem::path& place) {
+  namespace fs = std::filesystem;
+  const fs::path table = place / "results.h5", picture = place / "renders.pdf";
+  if (!fs::exists(table)) return;
+  if (fs::exists(picture) && fs::last_write_time(picture) >= fs::last_write_time(table)) return;
+  draw_figure("render.py", table, place / "renders");
+}
+
+}  // namespace
 
 RunOutcome run_paper(const Settings& settings, OutputFolder& folder) {
   using Json = nlohmann::ordered_json;
@@ -25,9 +38,7 @@ RunOutcome run_paper(const Settings& settings, OutputFolder& folder) {
                     {"config", part.config.string()},
                     {"status", summary["status"]},
                     {"cpu_seconds", summary["cpu_seconds"]}});
-    if (part.settings.experiment.kind == Kind::dataset &&
-        std::filesystem::exists(folder / part.name / "results.h5"))
-      draw_figure("render.py", folder / part.name / "results.h5", folder / part.name / "renders");
+    if (part.settings.experiment.kind == Kind::dataset) draw_renders(folder / part.name);
   }
   write_durably(folder / "parts.json",
                 [&](const std::filesystem::path& file) { std::ofstream(file) << list.dump(2); });
