@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/random.h"
 #include "estimation/tag_model.h"
 
 namespace drape {
@@ -121,17 +120,14 @@ Prior prior_from_weight(const std::vector<Parameter>& parameters, Structure stru
 
 Prior prior_from_tag(const std::vector<Parameter>& parameters, const Tag& tag,
                      BendingThreshold threshold) {
-  constexpr int kDrawn = 4000;
-  constexpr std::uint64_t kSeed = 1;
   const ParameterSpace space{parameters, first_parameters(tag)};
-  MatX z(space.size(), kDrawn);
-  for (int i = 0; i < kDrawn; ++i) {
-    Random random(seed_of_item(kSeed, static_cast<std::uint64_t>(i)));
-    z.col(i) = space.encode(random_parameters(tag, threshold, random));
-  }
+  const std::vector<Fabric> drawn = drawn_fabrics(tag, threshold);
+  const auto count = static_cast<Eigen::Index>(drawn.size());
+  MatX z(space.size(), count);
+  for (Eigen::Index i = 0; i < count; ++i) z.col(i) = space.encode(drawn[static_cast<size_t>(i)]);
   Prior prior{z.rowwise().mean(), {}};
   z.colwise() -= prior.mean;
-  prior.covariance = z * z.transpose() / (kDrawn - 1);
+  prior.covariance = z * z.transpose() / static_cast<double>(count - 1);
   // what the model does not scatter (the weight; softening in the reading "printed")
   for (int i = 0; i < space.size(); ++i)
     if (prior.covariance(i, i) < kLeastVariance)

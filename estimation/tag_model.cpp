@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <cstdint>
 
 #include "estimation/fibre_kinds.h"
 #include "estimation/measured_bending.h"
@@ -83,21 +83,27 @@ Fabric random_parameters(const Tag& tag, BendingThreshold threshold, Random& ran
   return fabric;
 }
 
+std::vector<Fabric> drawn_fabrics(const Tag& tag, BendingThreshold threshold) {
+  constexpr std::uint64_t kDrawn = 4000, kSeed = 1;
+  std::vector<Fabric> drawn;
+  for (std::uint64_t i = 0; i < kDrawn; ++i) {
+    Random random(seed_of_item(kSeed, i));
+    drawn.push_back(random_parameters(tag, threshold, random));
+  }
+  return drawn;
+}
+
 std::array<ParameterRange, kParameterCount> parameter_ranges(const Tag& tag,
                                                              BendingThreshold threshold) {
-  constexpr size_t kDrawn = 4000;
-  constexpr std::uint64_t kSeed = 1;
-  std::array<std::vector<double>, kParameterCount> drawn;
-  for (size_t i = 0; i < kDrawn; ++i) {
-    Random random(seed_of_item(kSeed, i));
-    const Fabric fabric = random_parameters(tag, threshold, random);
-    for (Parameter p : all_parameters()) drawn[static_cast<size_t>(p)].push_back(fabric[p]);
-  }
+  const std::vector<Fabric> drawn = drawn_fabrics(tag, threshold);
+  const size_t count = drawn.size();
   std::array<ParameterRange, kParameterCount> ranges{};
-  for (size_t p = 0; p < ranges.size(); ++p) {
-    std::vector<double>& values = drawn[p];
+  std::vector<double> values(count);
+  for (Parameter p : all_parameters()) {
+    for (size_t i = 0; i < count; ++i) values[i] = drawn[i][p];
     std::sort(values.begin(), values.end());
-    ranges[p] = {values[kDrawn / 20], values[kDrawn / 2], values[kDrawn - kDrawn / 20]};
+    ranges[static_cast<size_t>(p)] = {values[count / 20], values[count / 2],
+                                      values[count - count / 20]};
   }
   return ranges;
 }

@@ -7,7 +7,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <vector>
 
 #include "core/fabric.h"
 #include "core/random.h"
@@ -20,12 +20,15 @@ namespace drape {
 /// first_parameters. Throws like first_parameters. Takes any number of values from `random`.
 Fabric random_parameters(const Tag& tag, BendingThreshold threshold, Random& random);
 
+/// 4000 of them with a fixed seed: what is drawn for one purpose is what another sees.
+std::vector<Fabric> drawn_fabrics(const Tag& tag, BendingThreshold threshold);
+
 /// Percentiles of one parameter over the fabrics that bear a tag, in the parameter's unit.
 struct ParameterRange {
   double low, median, high;  ///< 5, 50 and 95 %
 };
 
-/// By drawing 4000 fabrics: the percentiles are good to some per cent.
+/// Over drawn_fabrics: the percentiles are good to some per cent.
 std::array<ParameterRange, kParameterCount> parameter_ranges(const Tag& tag,
                                                              BendingThreshold threshold);
 
