@@ -9,6 +9,7 @@
 #include "experiments/ablation.h"
 #include "experiments/model.h"
 #include "experiments/peak_memory.h"
+#include "tests/experiments/small_drape.h"
 
 namespace drape {
 namespace {
@@ -16,11 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Settings small_settings() {
-  Settings settings;
-  settings.mesh.vertices = 300;
-  settings.start.protocol = StartProtocol::lobes;
-  settings.start.lobes = 5;
-  settings.start.phase = 0.1;
+  Settings settings = test::small_drape();
   settings.reading.threshold = BendingThreshold::radius;
   settings.fabric.k_bu = 1.2e-5;
   settings.fabric.k_bv = 6e-6;

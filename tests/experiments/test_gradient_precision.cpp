@@ -7,6 +7,7 @@
 
 #include "experiments/gradient_precision.h"
 #include "experiments/model.h"
+#include "tests/experiments/small_drape.h"
 
 namespace drape {
 namespace {
@@ -14,11 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Settings small_settings() {
-  Settings settings;
-  settings.mesh.vertices = 300;
-  settings.start.protocol = StartProtocol::lobes;
-  settings.start.lobes = 5;
-  settings.start.phase = 0.1;
+  Settings settings = test::small_drape();
   GradientPrecisionSettings& study = settings.gradient_precision;
   study.parameters = {Parameter::k_h, Parameter::k_bh};
   study.tolerances = {1e-3, 1e-8};
