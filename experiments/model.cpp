@@ -152,9 +152,11 @@ SolveStats solve_stats(const Potential& potential, const Scene& scene,
   stats.wings_past_threshold = potential.wings_past_threshold(equilibrium.x);
   stats.energy = equilibrium.energy;
   stats.cpu_seconds = equilibrium.cpu_seconds;
-  if (!equilibrium.converged()) return stats;
-  const Contact contact = check_contact(potential, scene, equilibrium.x);
+  Contact contact;
+  contact.support = potential.support().has_value();
   stats.contact = contact.acting();
+  if (!equilibrium.converged()) return stats;
+  contact = check_contact(potential, scene, equilibrium.x);
   stats.self_intersections = contact.self_intersections;
   stats.support_penetration = contact.penetration;
   return stats;
