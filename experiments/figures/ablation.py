@@ -20,7 +20,9 @@ def page(result):
     rows = result["ingredients"]
     cell = (182 - LABEL - 2 * GAP - COST - 6) / 2 / max(MOST_COLUMNS, len(fabrics))
     height = ROW * len(rows)
-    figure = style.Page(182, TOP + height + 78)
+    checked = [(rule, title) for rule, title in RULES if result[rule]["checked"]]
+    below = TOP + height + 11  # the scale of the costs
+    figure = style.Page(182, below + (69 if checked else 0))
     head(figure, result)
     cells = {(c["ingredient"], c["fabric"]): c for c in result["cells"]}
     width = cell * len(fabrics)
@@ -38,9 +40,8 @@ def page(result):
     for row, ingredient in enumerate(rows):
         figure.text(6, TOP + ROW * (row + 0.5), ingredient["label"], va="center")
     cost(figure, lefts[1] + cell * max(MOST_COLUMNS, len(fabrics)) + GAP, height, rows, result["cells"])
-    checked = [(rule, title) for rule, title in RULES if result[rule]["checked"]]
     for i, (rule, title) in enumerate(checked):
-        check(figure, LABEL / 2 + 6 + 88 * i, TOP + height + 18, result, rule, title)
+        check(figure, LABEL / 2 + 6 + 88 * i, below + 9, result, rule, title)
     return figure
 
 

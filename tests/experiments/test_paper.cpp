@@ -1,6 +1,7 @@
 // kind = "paper": several experiments in one run, their figures on one page.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "tests/experiments/program_fixture.h"
@@ -31,6 +32,19 @@ TEST_F(Paper, RunsItsPartsAndCollectsTheirFigures) {
                            "vertices = 200", "drape coefficient"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
   EXPECT_EQ(page.find("http"), std::string::npos);  // it opens offline
+}
+
+TEST_F(Paper, RendersAgainOnlyWhatIsOlderThanItsTable) {
+  scratch.write("p.toml", "[experiment]\nkind = 'paper'\n[paper]\nconfigs = ['set.toml']\n");
+  const auto drawn = [&] {
+    std::filesystem::remove(scratch / "out/summary.json");
+    EXPECT_EQ(drape("run p.toml --out out --threads 1").exit_code, 0);
+    return std::filesystem::last_write_time(scratch / "out/set/renders.pdf");
+  };
+  const auto first = drawn();
+  EXPECT_EQ(drawn(), first);
+  std::filesystem::last_write_time(scratch / "out/set/results.h5", first + std::chrono::seconds(1));
+  EXPECT_GT(drawn(), first);
 }
 
 TEST_F(Paper, TakesUpFinishedParts) {
