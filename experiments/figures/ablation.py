@@ -9,8 +9,9 @@ from matplotlib.patches import Rectangle
 import study
 import style
 
-LABEL, TOP, ROW, GAP, COST = 40, 42, 6.4, 4, 22
-MOST_COLUMNS = 7  # fill the page's width
+WIDTH, LABEL, TOP, ROW, GAP = 182, 40, 36, 6.4, 4
+LEAST_COST = 22  # width of the panel of costs, which takes what the cells leave
+LARGEST_CELL, LEAST_MATRIX = 12, 26  # the title of a matrix needs that width
 POINTS, MILLIMETRES = (0.02, 10), (0.02, 10)  # ends of the colours
 RULES = (("contact_rule", "contact = auto"), ("resolution_rule", "vertices = auto"))
 
@@ -18,20 +19,22 @@ RULES = (("contact_rule", "contact = auto"), ("resolution_rule", "vertices = aut
 def page(result):
     fabrics = [i for i, fabric in enumerate(result["fabrics"]) if fabric["status"] == "converged"]
     rows = result["ingredients"]
-    cell = (182 - LABEL - 2 * GAP - COST - 6) / 2 / max(MOST_COLUMNS, len(fabrics))
+    columns = max(len(fabrics), 1)
+    cell = max(LEAST_MATRIX / columns, min(
+        LARGEST_CELL, (WIDTH - LABEL - 2 * GAP - LEAST_COST - 6) / 2 / columns))
     height = ROW * len(rows)
     checked = [(rule, title) for rule, title in RULES if result[rule]["checked"]]
     below = TOP + height + 11  # the scale of the costs
-    figure = style.Page(182, below + (69 if checked else 0))
+    figure = style.Page(WIDTH, below + (69 if checked else 0))
     head(figure, result)
     cells = {(c["ingredient"], c["fabric"]): c for c in result["cells"]}
-    width = cell * len(fabrics)
-    lefts = [LABEL, LABEL + cell * max(MOST_COLUMNS, len(fabrics)) + GAP]
-    titles = ("change of drape coefficient, points", "outline rms, mm, and nodes")
+    width = cell * columns
+    lefts = [LABEL, LABEL + width + GAP]
+    titles = ("change of drape\ncoefficient, points", "outline rms, mm,\nand nodes")
     for left, title, words, value, ends in zip(
             lefts, titles, (change_words, rms_words), (change, rms), (POINTS, MILLIMETRES)):
-        axes = matrix(figure, left, width, height, len(fabrics), len(rows))
-        figure.text(left, TOP - 9, title)
+        axes = matrix(figure, left, width, height, columns, len(rows))
+        figure.text(left, TOP - 10, title)
         for column, fabric in enumerate(fabrics):
             axes.text(column + 0.5, -0.2, coefficient(result["fabrics"][fabric]), ha="center",
                       va="bottom", fontsize=6)
@@ -39,7 +42,7 @@ def page(result):
                 paint(axes, column, row, cells.get((ingredient["name"], fabric)), words, value, ends)
     for row, ingredient in enumerate(rows):
         figure.text(6, TOP + ROW * (row + 0.5), ingredient["label"], va="center")
-    cost(figure, lefts[1] + cell * max(MOST_COLUMNS, len(fabrics)) + GAP, height, rows, result["cells"])
+    cost(figure, lefts[1] + width + GAP, height, rows, result["cells"])
     for i, (rule, title) in enumerate(checked):
         check(figure, LABEL / 2 + 6 + 88 * i, below + 9, result, rule, title)
     return figure
@@ -107,9 +110,9 @@ def paint(axes, column, row, cell, words, value, ends):
 
 
 def cost(figure, left, height, rows, cells):
-    axes = figure.axes(left, TOP, COST, height)
+    axes = figure.axes(left, TOP, WIDTH - 6 - left, height)
     axes.set(ylim=(len(rows), 0), xscale="log", yticks=[])
-    figure.text(left, TOP - 9, "CPU of a cold drape,\nratio", va="top")
+    figure.text(left, TOP - 10, "CPU of a cold drape,\nratio")
     for row, ingredient in enumerate(rows):
         ratios = [c["cpu_ratio"] for c in cells
                   if c["ingredient"] == ingredient["name"] and c.get("cpu_ratio")]

@@ -245,6 +245,19 @@ class Studies(FigureTest):
             self.assertEqual(drawn.count(stability.style.matplotlib.colors.to_rgba(colour)),
                              cells + 1, outcome)  # one in the legend
 
+    def test_few_fabrics_leave_no_gap_on_the_page_of_an_ablation(self):
+        for count in (0, 1, 2, 6):
+            result = ablation_result()
+            drape = {"status": "converged", "drape_coefficient_percent": 50}
+            result |= {"fabrics": [drape] * count,
+                       "cells": [c for c in result["cells"] if c["fabric"] < count]}
+            page = ablation.page(result)
+            self.check_layout(page)
+            panels = [axes.get_position() for axes in page.figure.axes[:3]]
+            for left, right in zip(panels, panels[1:]):
+                self.assertAlmostEqual((right.x0 - left.x1) * page.width, ablation.GAP)
+            self.assertAlmostEqual((1 - panels[-1].x1) * page.width, 6)
+
     def test_changes_are_without_the_jumps_of_snaps(self):
         cell = {"change": 2.5, "snap_change": 2.0, "snaps": 1, "outline_rms": 1.234e-3,
                 "node_change": -1}
