@@ -10,10 +10,11 @@
 namespace drape::baselines {
 namespace {
 
-constexpr double kFirstRecord = 5e-4;  // [s]
-constexpr double kSpacing = 1.15;      // of the times of recorded states
-constexpr double kLargest = 10;        // of a state, over the start
-constexpr double kProgress = 0.5;      // residual that counts as progress, over that of half time
+constexpr double kFirstRecord = 5e-4;   // [s]
+constexpr double kSpacing = 1.15;       // of the times of recorded states
+constexpr double kLargest = 10;         // of a state, over the start
+constexpr double kLargestFloor = 1e-3;  // of rounding; above it a triangle or wing has collapsed
+constexpr double kProgress = 0.5;       // residual that counts as progress, over that of half time
 
 }  // namespace
 
@@ -83,7 +84,7 @@ MethodRun Course::finish(const VecX& x) {
 
 Outcome Course::judge(const VecX& x) const {
   if (diverged_) return Outcome::diverged;
-  if (within_tolerance() || residual_ <= potential_.rounding_floor(x)) {
+  if (within_tolerance() || residual_ <= std::min(potential_.rounding_floor(x), kLargestFloor)) {
     SparseMatrix H;
     potential_.hessian(x, 0, H);
     SparseFactor factor(potential_.discretization().symbolic_factor());

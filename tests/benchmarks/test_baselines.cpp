@@ -143,6 +143,24 @@ TEST(LocalSteps, RefuseWhatTheyDoNotKnow) {
     EXPECT_THROW(run(method(name), E, start(), {.max_iterations = 1}), std::invalid_argument);
 }
 
+TEST(Verdict, ACollapsedTriangleIsNoEquilibrium) {
+  const Potential E = potential(plate());
+  const Mesh& m = mesh()->mesh();
+  VecX x = start();
+  // its height is so small that rounding of a position turns its wings
+  for (int t = 0; E.residual(E.gradient(x)) > E.rounding_floor(x); ++t) {
+    ASSERT_LT(t, m.triangle_count());
+    const int v = m.triangles(t, 0);
+    if (m.fixed[static_cast<size_t>(v)]) continue;
+    x = start();
+    x.segment<3>(3 * v) = position(x, m.triangles(t, 1)) +
+                          0.5 * (position(x, m.triangles(t, 2)) - position(x, m.triangles(t, 1))) +
+                          Vec3(0, 0, 1e-17);
+  }
+  EXPECT_GT(E.residual(E.gradient(x)), 1);
+  EXPECT_EQ(Course(E, {}, x).finish(x).outcome, Outcome::stalled);
+}
+
 TEST(Constraints, AddUpToThePotential) {
   for (const BendingLaw law : {BendingLaw::tangent, BendingLaw::secant}) {
     const Potential E(mesh(), test::medium_fabric(), {law, BendingThreshold::radius}, kGravity);
