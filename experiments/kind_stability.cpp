@@ -4,7 +4,8 @@
 // that the method chooses itself; over ratio and time step, at the middle density, for those that
 // have one; and the hard cases (hard_cases.h) on the smallest mesh. Every cell is one run from the
 // folded start with the same CPU time; its index does not depend on stability.only, by which it can
-// be run again.
+// be run again. A paragraph a method says where it converged, what became of the other cells, and
+// why methods of its kind fail there.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -154,13 +155,13 @@ RunOutcome run_stability(const Settings& settings, OutputFolder& folder) {
   }
   summary["failures"] = failures;
   outcome.status = core_converged ? "ok" : "partial";
-  for (const auto& [method, account] : summary["methods"].items())
-    std::printf("%s", sentence(method, account).c_str());
+  for (const Json& account : summary["methods"]) std::printf("%s\n", paragraph(account).c_str());
   std::fflush(stdout);  // the script prints as well
   Json atlas = {
       {"cpu_seconds", study.cpu_seconds}, {"methods", summary["methods"]}, {"cells", done}};
   write_text_durably(folder / "atlas.json", summary_text(atlas));
   draw_figure("stability.py", folder / "atlas.json", folder / "atlas");
+  draw_figure("stability_methods.py", folder / "atlas.json", folder / "methods");
   return outcome;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "benchmarks/baselines/methods.h"
 #include "experiments/json_store.h"
@@ -11,10 +12,24 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string short_number(double value, int digits = 6) {
+/// As short as in a text: 1e4, 2.5e-6.
+std::string short_number(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
+  std::snprintf(text, sizeof text, "%.4g", value);
+  std::string number = text;
+  if (const size_t e = number.find('e'); e != std::string::npos) {
+    const bool negative = number[e + 1] == '-';
+    const size_t first = std::min(number.find_first_not_of('0', e + 2), number.size() - 1);
+    number = number.substr(0, e + 1) + (negative ? "-" : "") + number.substr(first);
+  }
+  return number;
+}
+
+/// To two digits.
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1e", value);
+  return short_number(std::stod(text));
 }
 
 void count(Json& axis, const std::string& value, bool converged) {
@@ -30,15 +45,65 @@ void widen(Json& range, double value) {
   range = {std::min(range[0].get<double>(), value), std::max(range[1].get<double>(), value)};
 }
 
-/// The values of all axes at which all (or none) of the cells converged, as "axis value, ...".
-std::string values_where(const Json& axes, bool all) {
-  std::string list;
-  for (const auto& [axis, values] : axes.items())
-    for (const auto& [value, entry] : values.items()) {
-      if (entry["converged"] != (all ? entry["cells"] : Json(0))) continue;
-      list += (list.empty() ? "" : ", ") + axis + " " + value;
+/// "by vertices 3/4 at 250, 0/4 at 500; by ..."
+std::string by_axes(const Json& axes) {
+  static constexpr std::pair<const char*, const char*> kWords[]{
+      {"vertices", "vertices"},
+      {"membrane_to_bending", "membrane over bending"},
+      {"areal_density", "density [kg/m²]"},
+      {"time_step", "time step given [s]"}};
+  std::string text;
+  for (const auto& [axis, words] : kWords) {
+    if (!axes.contains(axis)) continue;
+    text += (text.empty() ? "By " : "; by ") + std::string(words);
+    const char* separator = " ";
+    for (const auto& [value, entry] : axes[axis].items()) {
+      text += separator + entry["converged"].dump() + "/" + entry["cells"].dump() + " at " + value;
+      separator = ", ";
     }
-  return list.empty() ? "no value of an axis alone" : list;
+  }
+  return text.empty() ? text : " " + text + ".";
+}
+
+/// The hard cases that were reached (or not).
+std::string cases_where(const Json& axes, bool converged) {
+  std::string list;
+  if (!axes.contains("case")) return list;
+  for (const auto& [name, entry] : axes["case"].items())
+    if ((entry["converged"] == entry["cells"]) == converged) {
+      list += (list.empty() ? "" : ", ") + name;
+    }
+  std::replace(list.begin(), list.end(), '_', ' ');
+  return list;
+}
+
+/// The outcomes but convergence, with the smallest residuals of their cells.
+std::string failures(const Json& account) {
+  std::string list;
+  for (const auto& [outcome, cells] : account["outcomes"].items()) {
+    if (outcome == "converged") continue;
+    list += (list.empty() ? "" : ", ") + cells.dump() + " " + outcome;
+    if (!account.contains("smallest_residuals") || !account["smallest_residuals"].contains(outcome))
+      continue;
+    const Json& range = account["smallest_residuals"][outcome];
+    const std::string least = rounded(range[0]), most = rounded(range[1]);
+    list += " (smallest residual " + (least == most ? least : least + " to " + most) + ")";
+  }
+  std::replace(list.begin(), list.end(), '_', ' ');
+  return list;
+}
+
+std::string in_words(const Json& account, int converged, int cells) {
+  if (converged == cells) return "Converged in all of " + std::to_string(cells) + " runs.";
+  if (converged == 0)
+    return "Converged in none of " + std::to_string(cells) + " runs: " + failures(account) + ".";
+  const Json& axes = account["axes"];
+  std::string text = "Converged in " + std::to_string(converged) + " of " + std::to_string(cells) +
+                     " runs." + by_axes(axes);
+  const std::string reached = cases_where(axes, true), missed = cases_where(axes, false);
+  if (!reached.empty()) text += " Hard cases reached: " + reached + ".";
+  if (!missed.empty()) text += " Hard cases missed: " + missed + ".";
+  return text + " The others: " + failures(account) + ".";
 }
 
 }  // namespace
@@ -52,7 +117,7 @@ Json account_of_methods(const std::vector<Json>& cells) {
       const auto outcome = cell["outcome"].get<std::string>();
       const bool converged = outcome == "converged";
       row["outcomes"][outcome] = row["outcomes"].value(outcome, 0) + 1;
-      if (cell.contains("smallest_residual"))
+      if (cell.contains("smallest_residual") && !cell["smallest_residual"].is_null())
         widen(row["smallest_residuals"][outcome], number(cell["smallest_residual"]));
       if (cell["case"] != "map") {
         count(row["axes"]["case"], cell["case"].get<std::string>(), converged);
@@ -63,31 +128,21 @@ Json account_of_methods(const std::vector<Json>& cells) {
           count(row["axes"][axis], short_number(cell[axis].get<double>()), converged);
       }
     }
-    if (!row["outcomes"].empty()) all[std::string(method.name)] = row;
+    int total = 0;
+    for (const Json& number_of_cells : row["outcomes"]) total += number_of_cells.get<int>();
+    if (total == 0) continue;
+    const int converged = row["outcomes"].value("converged", 0);
+    row["measured"] = in_words(row, converged, total);
+    row["limits"] = converged < total ? method.limits : "";
+    all[std::string(method.name)] = row;
   }
   return all;
 }
 
-std::string sentence(const std::string& method, const Json& account) {
-  std::string text = method + ":";
-  for (const auto& [outcome, cells] : account["outcomes"].items()) {
-    text += " " + outcome + " " + std::to_string(cells.get<int>());
-    if (outcome != "converged" && account.contains("smallest_residuals") &&
-        account["smallest_residuals"].contains(outcome)) {
-      const Json& range = account["smallest_residuals"][outcome];
-      text += " (smallest residuals " + short_number(range[0], 2) + " to " +
-              short_number(range[1], 2) + ")";
-    }
-    text += ";";
-  }
-  for (const auto& [axis, values] : account["axes"].items()) {
-    text += "\n  converged by " + axis + ":";
-    for (const auto& [value, entry] : values.items())
-      text += " " + value + " " + std::to_string(entry["converged"].get<int>()) + "/" +
-              std::to_string(entry["cells"].get<int>());
-  }
-  return text + "\n  always converged at " + values_where(account["axes"], true) + "; never at " +
-         values_where(account["axes"], false) + "\n";
+std::string paragraph(const Json& account) {
+  const auto words = [&](const char* part) { return account[part].get<std::string>(); };
+  return words("label") + ": " + words("measured") +
+         (words("limits").empty() ? "" : " " + words("limits"));
 }
 
 }  // namespace drape

@@ -9,12 +9,12 @@ namespace drape {
 
 /// Per method: label, counts and range of smallest residuals of outcomes, and under "axes" for
 /// every value of every axis ("vertices", "membrane_to_bending", "areal_density" with the method's
-/// own time step; "time_step"; "case") how many cells converged of how many. cells: as kept by the
-/// kind, see kind_stability.cpp.
+/// own time step; "time_step"; "case") how many cells converged of how many. In words, "measured":
+/// where it converged and what became of the others; "limits": why methods of its kind fail there,
+/// where some did. cells: as kept by the kind, see kind_stability.cpp.
 nlohmann::ordered_json account_of_methods(const std::vector<nlohmann::ordered_json>& cells);
 
-/// A paragraph of a method, from its account alone: what became of its cells, at which residuals it
-/// failed, and the values of the axes at which it always or never converged.
-std::string sentence(const std::string& method, const nlohmann::ordered_json& account);
+/// The paragraph of a method, from its account.
+std::string paragraph(const nlohmann::ordered_json& account);
 
 }  // namespace drape

@@ -28,6 +28,7 @@ struct Method {
   std::string_view label;  ///< in figures
   bool has_time_step;
   VecX (*minimise)(const Potential&, VecX, Course&);  ///< returns the state it ends with
+  std::string_view limits;  ///< why methods of this kind fail where they do, and who says so
 };
 
 /// core's solver first.

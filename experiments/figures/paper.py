@@ -63,6 +63,7 @@ CAPTIONS = {
     ("ablation", "ablation"):
         "What each ingredient of the model changes of a drape, and what it costs.",
     ("stability", "atlas"): "Where every method converges, stalls, diverges or runs out of time.",
+    ("stability", "methods"): "The same in words, and why methods of each kind fail there.",
 }
 
 # Numbers worth reading beside a figure, where a summary has them.

@@ -5,11 +5,13 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "benchmarks/baselines/constraints.h"
 #include "benchmarks/baselines/line_search.h"
 #include "benchmarks/baselines/methods.h"
 #include "core/drape_protocol.h"
+#include "core/sparse_factor.h"
 #include "tests/support/shapes.h"
 
 namespace drape::baselines {
@@ -119,6 +121,57 @@ TEST(Admm, AnEquilibriumIsItsFixedPoint) {
     // the residual of 1e-9 and the local steps' tolerance of 1e-12 m, over five iterations
     EXPECT_LE(largest_distance(r.end().x, rest.x), 1e-9);
   }
+}
+
+TEST(Admm, CyclesWhereCompressionExceedsAWeight) {
+  const auto residual = [](double k) {  // after a disturbance of the equilibrium
+    Fabric fabric = test::medium_fabric();
+    fabric.k_u = fabric.k_v = k;
+    fabric.k_h = 0.03 * k;
+    const Potential E = potential(fabric);
+    const Equilibrium rest = drape_by_lobes(E, kCusick, 6, 0.1, {.tolerance = 1e-9});
+    EXPECT_TRUE(rest.converged());
+    double compression = 0;
+    for (const Direction& e : constraints_of(E).directions)
+      compression = std::max(compression, 1 - e.stretched(rest.x).norm());
+    const VecX x = test::shaken(mesh()->mesh(), rest.x, 1e-5);
+    const MethodRun r = run(method("admm"), E, x, {.max_iterations = 500, .tolerance = 1e-12});
+    return std::pair(compression, r.end().residual);
+  };
+  const auto [soft, cycling] = residual(30);
+  const auto [stiff, settling] = residual(3000);
+  EXPECT_GT(soft, 0.05);  // the weight over the stiffness
+  EXPECT_LT(stiff, 0.05);
+  EXPECT_GT(cycling, 0.5);
+  EXPECT_LT(settling, 0.1);
+}
+
+TEST(ProjectedNewton, ConvergesAtTheRateOfTheProjection) {
+  const Potential E = potential(test::medium_fabric());
+  const VecX x = folded_state(mesh()->mesh(), kCusick, 6, 0.1);
+  const auto at = [&](double tolerance) {
+    return run(method("projected_newton"), E, x, {.cpu_seconds = 60, .tolerance = tolerance}).end();
+  };
+  const Snapshot first = at(1e-6), last = at(1e-8);
+  const double observed =
+      std::pow(last.residual / first.residual, 1.0 / (last.iterations - first.iterations));
+  // power iteration for 1 - lambda_min(H(1)^-1 H)
+  SparseMatrix H, projected;
+  E.hessian(last.x, 0, H);
+  E.hessian(last.x, 1, projected);
+  SparseFactor factor(mesh()->symbolic_factor());
+  ASSERT_TRUE(factor.factorize(projected));
+  VecX mode = VecX::LinSpaced(H.rows(), -1, 1).array().sin();
+  double rate = 0;
+  for (int i = 0; i < 300; ++i) {
+    VecX image = H.selfadjointView<Eigen::Lower>() * mode;
+    factor.solve_in_place(image);
+    const VecX next = mode - image;
+    rate = next.norm() / mode.norm();
+    mode = next.normalized();
+  }
+  EXPECT_GT(rate, 0.9);
+  EXPECT_NEAR(observed, rate, 0.1 * (1 - rate));  // other modes still fade
 }
 
 TEST(ProjectedNewton, ConvergesLinearly) {

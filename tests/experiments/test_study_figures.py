@@ -19,6 +19,7 @@ import identifiability  # noqa: E402
 import photographs  # noqa: E402
 import snap_gradient  # noqa: E402
 import stability  # noqa: E402
+import stability_methods  # noqa: E402
 import style  # noqa: E402
 import tag_comparison  # noqa: E402
 import validation  # noqa: E402
@@ -157,7 +158,11 @@ def stability_atlas():
              for j, (case, vertices, ratio, density, step) in enumerate(places)
              if not step or method in ("xpbd", "explicit_dynamics")]
     return {"cpu_seconds": 2, "cells": cells,
-            "methods": {method: {"label": "implicit Euler, one solve"} for method in METHODS}}
+            "methods": {method: {
+                "label": "implicit Euler, one solve", "limits": "" if i == 0 else "It is slow. " * 30,
+                "outcomes": {"converged": 20, "stalled": i, "diverged": 2 * i},
+                "measured": f"Converged in 20 of {20 + 3 * i} runs. " + "By vertices 1/2 at 250. " * 12}
+                        for i, method in enumerate(METHODS)}}
 
 
 def photographs_summary():
@@ -231,6 +236,10 @@ class Studies(FigureTest):
         self.check_layout(page)
         self.assertIn("no scikit-learn", self.words(page))
         self.check_layout(stability.page(stability_atlas()))
+        page = stability_methods.page(stability_atlas())
+        self.check_layout(page)
+        for said in ("Converged in 20 of 20 runs", "Converged in 20 of 23 runs", "It is slow."):
+            self.assertIn(said, self.words(page))
         self.check_layout(estimation_precision.page(estimation_precision_chart()))
         chart = work_precision_chart()
         self.check_layout(work_precision.page(chart))
@@ -258,6 +267,16 @@ class Studies(FigureTest):
                 self.assertAlmostEqual((right.x0 - left.x1) * page.width, ablation.GAP)
             self.assertAlmostEqual((1 - panels[-1].x1) * page.width, 6)
 
+    def test_bars_of_methods_are_shares_of_outcomes(self):
+        atlas = stability_atlas()
+        page = stability_methods.page(atlas)
+        accounts = list(atlas["methods"].values())
+        for axes, account in zip(page.figure.axes, accounts):
+            widths = [patch.get_width() for patch in axes.patches]
+            self.assertEqual(dict(zip(stability.OUTCOMES, widths)),
+                             dict.fromkeys(stability.OUTCOMES, 0) | account["outcomes"])
+            self.assertEqual(axes.get_xlim()[1], sum(account["outcomes"].values()))
+
     def test_changes_are_without_the_jumps_of_snaps(self):
         cell = {"change": 2.5, "snap_change": 2.0, "snaps": 1, "outline_rms": 1.234e-3,
                 "node_change": -1}
@@ -280,6 +299,7 @@ class Studies(FigureTest):
                                 ("identifiability", identifiability_summary()),
                                 ("work_precision", work_precision_chart()),
                                 ("stability", stability_atlas()),
+                                ("stability_methods", stability_atlas()),
                                 ("estimation_precision", estimation_precision_chart()),
                                 ("ablation", ablation_result()),
                                 ("gradient_precision", gradients_result()),

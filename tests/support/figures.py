@@ -113,6 +113,7 @@ class FigureTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
+        self.addCleanup(style.plt.close, "all")
         self.folder = Path(folder.name)
         self.file = self.folder / "results.h5"
 
