@@ -1,17 +1,20 @@
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "core/record_access.h"
+#include "core/record_cells.h"
 
 namespace drape {
 namespace {
 
 /// "14 of 15 (93.3 %)": how many rows of a column hold `wanted`.
 std::string share_of(const hdf5::File& file, const std::string& path, const std::string& wanted) {
-  const std::vector<std::string> values = file.dataset(path).read<std::string>();
+  const auto values = file.dataset<std::string>(path, {hdf5::kAnySize}).read<std::string>();
   const auto found = std::count(values.begin(), values.end(), wanted);
   std::ostringstream text;
   text << found << " of " << values.size();
@@ -37,20 +40,30 @@ std::string describe_texts(const hdf5::Dataset& data) {
   return text.str();
 }
 
-/// Smallest and largest number of a column, read row by row, and how many rows hold a NaN.
+/// Numbers in memory at a time.
+constexpr hsize_t kBlock = 4096;
+
+/// Smallest and largest number of a column and how many rows hold a NaN.
 std::string describe_numbers(const hdf5::Dataset& data) {
   double least = std::numeric_limits<double>::infinity();
   double greatest = -least;
   hsize_t rows_with_nan = 0;
-  const hsize_t count = data.shape().at(0);
-  for (hsize_t row = 0; row < count; ++row) {
-    bool has_nan = false;
-    for (const double value : data.read_rows<double>(row, 1)) {
-      has_nan |= std::isnan(value);
-      least = std::fmin(least, value);
-      greatest = std::fmax(greatest, value);
+  hdf5::Shape cell = data.shape();
+  const hsize_t count = std::exchange(cell.at(0), 1);
+  const hsize_t size = std::max<hsize_t>(1, size_of(cell));
+  const hsize_t block = std::max<hsize_t>(1, kBlock / size);
+  for (hsize_t first = 0; first < count; first += block) {
+    const auto values = data.read_rows<double>(first, std::min(block, count - first));
+    for (auto row = values.begin(); row != values.end(); row += static_cast<std::ptrdiff_t>(size)) {
+      bool has_nan = false;
+      for (hsize_t i = 0; i < size; ++i) {
+        const double value = row[static_cast<std::ptrdiff_t>(i)];
+        has_nan |= std::isnan(value);
+        least = std::fmin(least, value);
+        greatest = std::fmax(greatest, value);
+      }
+      rows_with_nan += has_nan;
     }
-    rows_with_nan += has_nan;
   }
   std::ostringstream text;
   if (least <= greatest) text << least << " .. " << greatest;

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <type_traits>
 
+#include "core/hdf5_virtual.h"
+
 namespace drape::hdf5 {
 namespace {
 
@@ -140,11 +142,12 @@ std::vector<T> read_values(const Shape& shape, const std::string& what, Transfer
 
 /// The format of 1.10 has check sums over the metadata, and is smaller than older ones. No locks: a
 /// complete file is never written again, so they protect nothing, and they fail on file systems
-/// that have none.
+/// that have none. The files that virtual datasets show stay open from one dataset to the next.
 Id file_access() {
   Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "HDF5 file access");
   check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "HDF5 file access");
   check(H5Pset_file_locking(access, false, true), "HDF5 file access");
+  check(H5Pset_elink_file_cache_size(access, 64), "HDF5 file access");
   return access;
 }
 
@@ -203,17 +206,19 @@ std::vector<T> Dataset::read_rows(hsize_t first, hsize_t count) const {
 
 File File::create(const std::filesystem::path& path) {
   return File(Id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, file_access()), H5Fclose,
-                 "cannot be created"));
+                 "cannot be created"),
+              path.parent_path());
 }
 
 File File::open(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path)) throw Error("no such file");
   if (H5Fis_hdf5(path.c_str()) <= 0) throw Error("is not an HDF5 file");
   return File(Id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, file_access()), H5Fclose,
-                 "is damaged: HDF5 cannot open it"));
+                 "is damaged: HDF5 cannot open it"),
+              path.parent_path());
 }
 
-bool File::has_group(const std::string& path) const {
+bool File::has(const std::string& path) const {
   return H5Lexists(id_, path.c_str(), H5P_DEFAULT) > 0;
 }
 
@@ -263,8 +268,10 @@ void File::write_rows(const std::string& path, hsize_t first, hsize_t count,
 }
 
 Dataset File::dataset(const std::string& path) const {
-  return Dataset(path, Id(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose,
-                          "dataset " + path + " is missing or damaged"));
+  Dataset data(path, Id(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose,
+                        "dataset " + path + " is missing or damaged"));
+  check_sources(data, folder_);
+  return data;
 }
 
 template <class T>
@@ -281,6 +288,7 @@ Dataset File::dataset(const std::string& path, const Shape& expected) const {
       !std::equal(shape.begin(), shape.end(), expected.begin(), expected.end(), fits))
     throw Error("dataset " + path + " is " + data.type_name() + " " + to_string(shape) + ", " +
                 right);
+  check_sources(data, folder_);
   return data;
 }
 

@@ -91,7 +91,7 @@ class File {
   static File open(const std::filesystem::path& path);  ///< for reading
 
   hid_t id() const { return id_; }
-  bool has_group(const std::string& path) const;  ///< of the root: "/sim"
+  bool has(const std::string& path) const;  ///< a group, or a dataset in a group that is there
   /// Paths of all datasets, sorted.
   std::vector<std::string> datasets() const;
 
@@ -110,7 +110,8 @@ class File {
     create<T>(path, shape, chunk);
     write_rows(path, 0, shape.at(0), values);
   }
-  /// Throws Error, which names what is there and what should be, if it is missing.
+  /// Throws Error, which names what is there and what should be, if it is missing, or if it shows
+  /// rows of a file that is missing.
   Dataset dataset(const std::string& path) const;
   /// The same for a dataset of another element type or shape than expected.
   template <class T>
@@ -130,8 +131,9 @@ class File {
   void close();
 
  private:
-  explicit File(Id id) : id_(std::move(id)) {}
+  File(Id id, std::filesystem::path folder) : id_(std::move(id)), folder_(std::move(folder)) {}
   Id id_;
+  std::filesystem::path folder_;
 };
 
 }  // namespace drape::hdf5

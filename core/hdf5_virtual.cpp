@@ -1,6 +1,6 @@
 #include "core/hdf5_virtual.h"
 
-#include <algorithm>
+#include <set>
 
 namespace drape::hdf5 {
 namespace {
@@ -45,29 +45,25 @@ void create_virtual(const File& target, const Dataset& like, const std::string& 
       .close(what);
 }
 
-std::vector<std::filesystem::path> missing_sources(const File& file,
-                                                   const std::filesystem::path& path) {
+void check_sources(const Dataset& data, const std::filesystem::path& folder) {
   const std::string what = "virtual datasets cannot be read";
-  std::vector<std::filesystem::path> missing;
-  for (const std::string& name : file.datasets()) {
-    const Dataset data = file.dataset(name);
-    const Id storage(H5Dget_create_plist(data.id()), H5Pclose, what);
-    if (H5Pget_layout(storage) != H5D_VIRTUAL) continue;
-    size_t count = 0;
-    check(H5Pget_virtual_count(storage, &count), what);
-    for (size_t i = 0; i < count; ++i) {
-      const ssize_t length = H5Pget_virtual_filename(storage, i, nullptr, 0);
-      if (length < 0) throw Error(what);
-      std::string source(static_cast<size_t>(length) + 1, '\0');
-      if (H5Pget_virtual_filename(storage, i, source.data(), source.size()) < 0) throw Error(what);
-      source.resize(static_cast<size_t>(length));
-      const std::filesystem::path full = path.parent_path() / source;
-      if (!std::filesystem::is_regular_file(full) &&
-          std::find(missing.begin(), missing.end(), full) == missing.end())
-        missing.push_back(full);
-    }
+  const Id storage(H5Dget_create_plist(data.id()), H5Pclose, what);
+  if (H5Pget_layout(storage) != H5D_VIRTUAL) return;
+  size_t count = 0;
+  check(H5Pget_virtual_count(storage, &count), what);
+  std::set<std::filesystem::path> missing;
+  for (size_t i = 0; i < count; ++i) {
+    const ssize_t length = H5Pget_virtual_filename(storage, i, nullptr, 0);
+    if (length < 0) throw Error(what);
+    std::string source(static_cast<size_t>(length) + 1, '\0');
+    if (H5Pget_virtual_filename(storage, i, source.data(), source.size()) < 0) throw Error(what);
+    source.resize(static_cast<size_t>(length));
+    if (!std::filesystem::is_regular_file(folder / source)) missing.insert(folder / source);
   }
-  return missing;
+  if (!missing.empty())
+    throw Error(
+        "shows the records of " + missing.begin()->string() + ", which is not there" +
+        (missing.size() > 1 ? " (nor are " + std::to_string(missing.size() - 1) + " others)" : ""));
 }
 
 }  // namespace drape::hdf5

@@ -1,7 +1,7 @@
 // Virtual datasets: one dataset that shows the rows of several files one after the other.
 //
 // Nothing is copied: the files must stay where they are, relative to the file that shows them. HDF5
-// reads rows of a missing file as zeros without a word; missing_sources() is there to be asked.
+// reads rows of a missing file as zeros without a word, so File::dataset() asks check_sources().
 #pragma once
 
 #include <filesystem>
@@ -24,8 +24,7 @@ struct RowSource {
 void create_virtual(const File& target, const Dataset& like, const std::string& path,
                     const std::vector<RowSource>& sources);
 
-/// Files that datasets of `file`, opened from `path`, show and that are not there.
-std::vector<std::filesystem::path> missing_sources(const File& file,
-                                                   const std::filesystem::path& path);
+/// Throws Error if `data`, of a file in `folder`, shows rows of files that are not there.
+void check_sources(const Dataset& data, const std::filesystem::path& folder);
 
 }  // namespace drape::hdf5

@@ -3,11 +3,9 @@
 // Part of records.cpp.
 #pragma once
 
-#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "core/hdf5_file.h"
 #include "core/record_columns.h"
@@ -46,11 +44,8 @@ inline size_t record_count(const hdf5::File& file) {
   return file.dataset<std::string>("/fabric/id", {hdf5::kAnySize}).shape()[0];
 }
 
-inline bool has_estimates(const hdf5::File& file) { return file.has_group("/estimate"); }
+inline bool has_estimates(const hdf5::File& file) { return file.has("/estimate"); }
 
-inline bool has_contact(const hdf5::File& file) {
-  const std::vector<std::string> paths = file.datasets();
-  return std::find(paths.begin(), paths.end(), kContactForce) != paths.end();
-}
+inline bool has_contact(const hdf5::File& file) { return file.has(kContactForce); }
 
 }  // namespace drape

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/hdf5_virtual.h"
-
 namespace drape {
 namespace {
 
@@ -54,11 +52,6 @@ hdf5::File open_records(const std::filesystem::path& path) {
     throw hdf5::Error("has version " + std::to_string(version) + " of " + kSchema +
                       ", this program reads versions 1 to " + std::to_string(kSchemaVersion) +
                       (version > kSchemaVersion ? ": use a newer program" : ""));
-  const std::vector<std::filesystem::path> missing = hdf5::missing_sources(file, path);
-  if (!missing.empty())
-    throw hdf5::Error(
-        "shows the records of " + missing.front().string() + ", which is not there" +
-        (missing.size() > 1 ? " (nor are " + std::to_string(missing.size() - 1) + " others)" : ""));
   return file;
 }
 

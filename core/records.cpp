@@ -57,12 +57,13 @@ struct ColumnWriter {
 template <class Row>
 struct ColumnReader {
   const hdf5::File& file;
+  std::uint64_t version;
   size_t count, first;
   std::vector<Row>& rows;
 
   template <class Place>
   void operator()(const Column& column, Place place) const {
-    if (column.since > schema_version(file)) return;
+    if (column.since > version) return;
     using Value = Stored<ValueAt<Row, Place>>;
     using Element = typename Value::Element;
     const std::vector<Element> elements =
@@ -150,6 +151,28 @@ class TableWriter {
   bool contact_ = false, estimates_ = false;  // whether the columns are there
 };
 
+/// Records [first, first + count) of a table of `all`.
+std::vector<Record> rows_of(const hdf5::File& file, size_t all, size_t first, size_t count) {
+  const CellSizes sizes = cell_sizes(read_header(file));
+  const std::uint64_t version = schema_version(file);
+  std::vector<Record> records(count);
+  visit_record_columns(sizes, ColumnReader<Record>{file, version, all, first, records});
+  for (size_t i = 0; i < count; ++i) in_record(first + i, [&] { validate(records[i].fabric); });
+  if (has_contact(file)) {
+    std::vector<VecX> forces(count);
+    visit_contact_columns(sizes, ColumnReader<VecX>{file, version, all, first, forces});
+    for (size_t i = 0; i < count; ++i)
+      if (records[i].stats.contact != "off") records[i].contact_force = std::move(forces[i]);
+  }
+  if (!has_estimates(file)) return records;
+
+  std::vector<EstimateRecord> estimates(count);
+  visit_estimate_columns(sizes, ColumnReader<EstimateRecord>{file, version, all, first, estimates});
+  for (size_t i = 0; i < count; ++i)
+    if (!estimates[i].outcome.empty()) records[i].estimate = std::move(estimates[i]);
+  return records;
+}
+
 }  // namespace
 
 void write_records(const fs::path& path, const RecordsHeader& header, size_t count,
@@ -194,27 +217,11 @@ size_t record_count(const fs::path& path) {
 
 std::vector<Record> read_records(const fs::path& path, size_t first, size_t count) {
   return with_records(path, [&](const hdf5::File& file) {
-    const CellSizes sizes = cell_sizes(read_header(file));
     const size_t all = record_count(file);
     if (first + count > all)
       throw hdf5::Error("has " + std::to_string(all) + " records, asked for " +
                         std::to_string(first) + " to " + std::to_string(first + count - 1));
-    std::vector<Record> records(count);
-    visit_record_columns(sizes, ColumnReader<Record>{file, all, first, records});
-    for (size_t i = 0; i < count; ++i) in_record(first + i, [&] { validate(records[i].fabric); });
-    if (has_contact(file)) {
-      std::vector<VecX> forces(count);
-      visit_contact_columns(sizes, ColumnReader<VecX>{file, all, first, forces});
-      for (size_t i = 0; i < count; ++i)
-        if (records[i].stats.contact != "off") records[i].contact_force = std::move(forces[i]);
-    }
-    if (!has_estimates(file)) return records;
-
-    std::vector<EstimateRecord> estimates(count);
-    visit_estimate_columns(sizes, ColumnReader<EstimateRecord>{file, all, first, estimates});
-    for (size_t i = 0; i < count; ++i)
-      if (!estimates[i].outcome.empty()) records[i].estimate = std::move(estimates[i]);
-    return records;
+    return rows_of(file, all, first, count);
   });
 }
 
@@ -229,7 +236,10 @@ void visit_records(const fs::path& path,
 }
 
 std::vector<Record> read_records(const fs::path& path) {
-  return read_records(path, 0, record_count(path));
+  return with_records(path, [](const hdf5::File& file) {
+    const size_t all = record_count(file);
+    return rows_of(file, all, 0, all);
+  });
 }
 
 }  // namespace drape

@@ -115,7 +115,8 @@ CaptureChange change_between(const Capture& from, const Capture& to) {
 
 std::vector<Capture> find_captures(const std::filesystem::path& folder,
                                    const std::vector<int>& fabrics) {
-  static const std::regex pattern(R"(fabric_(\d+)/specimen_(\d+)_capture_(\d+)\.(jpe?g|png))");
+  static const std::regex pattern(
+      R"(fabric_(\d{1,9})/specimen_(\d{1,9})_capture_(\d{1,9})\.(jpe?g|png))");
   std::vector<Capture> captures;
   std::set<int> found;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

@@ -191,5 +191,22 @@ TEST_F(Records, DescriptionShowsColumnsRangesAndShares) {
   EXPECT_THROW(describe_records(folder_ / "missing.h5"), RecordError);
 }
 
+// The numbers of 25 profiles are read in three pieces.
+TEST_F(Records, RangesAreOverAllRows) {
+  std::vector<Record> records;
+  for (int i = 0; i < 25; ++i) {
+    records.push_back(make_record(i, header_));
+    records.back().observation.profile.setConstant(0.125);
+  }
+  records[0].observation.profile[0] = 0.0625;
+  records[12].observation.profile.setConstant(kNaN);
+  records[13].observation.profile[359] = kNaN;
+  records[24].observation.profile[359] = 0.25;
+  write_records(file_, header_, records);
+  EXPECT_TRUE(matches(describe_records(file_),
+                      "/observation/profile +f64 +\\[25, 360\\] +0.0625 \\.\\. 0.25, NaN in 2 "
+                      "rows m\n"));
+}
+
 }  // namespace
 }  // namespace drape

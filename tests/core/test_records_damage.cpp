@@ -89,6 +89,22 @@ TEST_F(Records, WhatIsWrongInAFileIsNamed) {
         "record 0: fabric parameter areal_density = -0.1");
 }
 
+TEST_F(Records, WhatIsNoColumnIsNotDescribed) {
+  write_example();
+  change([](hid_t file) {
+    H5Ldelete(file, "/stats/status", H5P_DEFAULT);
+    const hid_t scalar = H5Screate(H5S_SCALAR);
+    H5Dclose(H5Dcreate2(file, "/stats/status", H5T_NATIVE_INT32, scalar, {}, {}, {}));
+    H5Sclose(scalar);
+  });
+  try {
+    describe_records(file_);
+    FAIL() << "a number was taken for a column of texts";
+  } catch (const RecordError& error) {
+    EXPECT_TRUE(contains(error.what(), "dataset /stats/status is i32 [], must be text [any]"));
+  }
+}
+
 TEST_F(Records, TruncatedFilesAreRefused) {
   write_example();
   const auto size = fs::file_size(file_);

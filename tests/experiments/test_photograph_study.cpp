@@ -26,7 +26,8 @@ TEST_F(PhotographStudy, FindsCapturesInTheOrderOfTheirNumbers) {
   for (const char* place :
        {"fabric_02/specimen_01_capture_10.jpg", "fabric_02/specimen_01_capture_2.jpg",
         "fabric_01/specimen_02_capture_1.png", "fabric_01/notes.txt",
-        "fabric_01/old/specimen_01_capture_1.jpg", "fabric_x/specimen_01_capture_1.jpg"})
+        "fabric_01/old/specimen_01_capture_1.jpg", "fabric_x/specimen_01_capture_1.jpg",
+        "fabric_99999999999/specimen_01_capture_1.jpg"})
     add(place);
   EXPECT_EQ(found({}), (std::vector<std::string>{"01_02_1", "02_01_2", "02_01_10"}));
   EXPECT_EQ(found({2}), (std::vector<std::string>{"02_01_2", "02_01_10"}));

@@ -4,8 +4,10 @@
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "estimation/random_tags.h"
+#include "experiments/config_keys.h"
 
 using namespace drape;
 namespace fs = std::filesystem;
@@ -36,6 +38,18 @@ std::string silhouette(const char* format) {
   return {bytes.begin(), bytes.end()};
 }
 
+/// A dictionary for libFuzzer: the names of sections and keys and what they may be.
+std::string config_words() {
+  std::set<std::string> words;
+  for (const ConfigKey& key : config_keys()) {
+    words.insert({key.section, key.name});
+    words.insert(key.choices.begin(), key.choices.end());
+  }
+  std::string list;
+  for (const std::string& word : words) list += '"' + word + "\"\n";
+  return list;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -55,14 +69,21 @@ int main(int argc, char** argv) {
   write(folder / "photograph/jpeg", silhouette(".jpg") + choices);
   std::string disc(60, '\x14');  // radii of 20 and more of the rest
   write(folder / "photograph/drawn", disc + std::string("\xff\x00\x50\x50\x00\x00", 6));
-  // edits of every sort and table
+  const std::string nul(1, '\0');
+  write(folder / "config/changed", "[experiment]\nkind = 'drape'\n" + nul + "mesh.vertices = auto" +
+                                       nul + "fabric.k_u=.5" + nul + "start.protocol=lobes");
+  write(folder / "words", config_words());
+  // an edit of every sort, in every table, for every reader; choices are read from the end
   for (int table = 0; table < 4; ++table)
-    for (int sort = 0; sort < 8; ++sort) {
-      std::string bytes(48, '\0');
-      for (size_t i = 0; i < bytes.size(); ++i)
-        bytes[i] = static_cast<char>(37 * sort + 11 * table + static_cast<int>(i * i));
-      bytes += static_cast<char>(sort);
-      bytes += static_cast<char>(table);
-      write(folder / ("records/" + std::to_string(table) + std::to_string(sort)), bytes);
-    }
+    for (int reader = 0; reader < 3; ++reader)
+      for (int sort = 0; sort < 8; ++sort) {
+        const int number = sort + 8 * (reader + 3 * table);
+        std::string bytes(44, '\0');
+        for (size_t i = 0; i < bytes.size(); ++i)
+          bytes[i] = static_cast<char>(37 * number + static_cast<int>(i * i));
+        for (const int choice :
+             {sort, 41 * number /* the object */, 0 /* one edit */, reader, table})
+          bytes += static_cast<char>(choice);
+        write(folder / "records" / std::to_string(number), bytes);
+      }
 }
