@@ -219,11 +219,13 @@ struct Crossings {
 /// Where the ray from the centroid (column, row) in direction alpha (row counts downwards) crosses
 /// 1/2.
 Crossings cast_ray(const CoverageImage& coverage, const Vec2& centre, double alpha) {
+  const Vec2 direction(std::cos(alpha), -std::sin(alpha));
   const auto inside = [&](double radius) {
-    return interpolated(coverage, centre.x() + radius * std::cos(alpha),
-                        centre.y() - radius * std::sin(alpha)) >= 0.5;
+    const Vec2 at = centre + radius * direction;
+    return interpolated(coverage, at.x(), at.y()) >= 0.5;
   };
-  const double far = std::hypot(coverage.rows(), coverage.cols());
+  const Vec2 size(static_cast<double>(coverage.cols()), static_cast<double>(coverage.rows()));
+  const double far = centre.cwiseMax(size - centre).norm();  // beyond, nothing is covered
   Crossings crossings{0, 0};
   bool was_inside = false;
   for (int step = static_cast<int>(far / kRayStep); step >= 0; --step) {

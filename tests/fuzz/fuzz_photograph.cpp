@@ -17,8 +17,8 @@ using namespace drape;
 namespace {
 
 std::vector<std::uint8_t> picture(FuzzedDataProvider& bytes) {
-  const int width = bytes.ConsumeIntegralInRange(1, 96),
-            height = bytes.ConsumeIntegralInRange(1, 96);
+  const int width = bytes.ConsumeIntegralInRange(1, 64),
+            height = bytes.ConsumeIntegralInRange(1, 64);
   const auto background = bytes.ConsumeIntegral<std::uint8_t>(),
              cloth = bytes.ConsumeIntegral<std::uint8_t>();
   cv::Mat grey(height, width, CV_8U, cv::Scalar(background));
@@ -27,7 +27,7 @@ std::vector<std::uint8_t> picture(FuzzedDataProvider& bytes) {
   std::vector<cv::Point> corners;
   const int count = bytes.ConsumeIntegralInRange(3, 40);
   for (int i = 0; i < count; ++i) {
-    const double angle = 2 * M_PI * i / count, radius = bytes.ConsumeIntegralInRange(0, 60);
+    const double angle = 2 * M_PI * i / count, radius = bytes.ConsumeIntegralInRange(0, 40);
     corners.emplace_back(static_cast<int>(x + radius * cos(angle)),
                          static_cast<int>(y + radius * sin(angle)));
   }

@@ -1,4 +1,5 @@
 // Writes the seeds of the fuzzers into the folder given: files of the project's own making.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -28,14 +29,46 @@ std::string tags_as_table() {
   return table;
 }
 
-/// A silhouette as PNG or JPEG, in the form that fuzz_photograph takes for "as it is": its choices
-/// are read from the end.
+/// The bytes of which a FuzzedDataProvider makes these choices in order: it takes them from the
+/// end.
+std::string choices(std::vector<int> bytes) { return {bytes.rbegin(), bytes.rend()}; }
+
+void append(std::vector<int>& bytes, const std::vector<int>& more) {
+  bytes.insert(bytes.end(), more.begin(), more.end());
+}
+
+/// A share of the range for a number with a fraction.
+std::vector<int> share(double of_range) {
+  return std::vector<int>(8, static_cast<int>(255 * of_range));
+}
+
+/// What fuzz_photograph chooses first: a file or a picture, and 6 mm a pixel.
+std::vector<int> photograph_of(bool file) {
+  std::vector<int> bytes{file, 0};
+  append(bytes, share(5. / 19));
+  return bytes;
+}
+
+/// A silhouette as PNG or JPEG.
 std::string silhouette(const char* format) {
-  cv::Mat grey(80, 80, CV_8U, cv::Scalar(0));
-  cv::circle(grey, {40, 40}, 30, cv::Scalar(255), cv::FILLED, cv::LINE_AA);
+  cv::Mat grey(48, 48, CV_8U, cv::Scalar(0));
+  cv::circle(grey, {24, 24}, 20, cv::Scalar(255), cv::FILLED, cv::LINE_AA);
   std::vector<std::uint8_t> bytes;
   cv::imencode(format, grey, bytes);
-  return {bytes.begin(), bytes.end()};
+  return std::string(bytes.begin(), bytes.end()) + choices(photograph_of(true));
+}
+
+/// A silhouette with `nodes` folds, drawn by fuzz_photograph itself.
+std::string drawn(int nodes, bool png) {
+  std::vector<int> bytes = photograph_of(false);
+  append(bytes, {47, 47, 255, 0});  // width and height less one, background, cloth
+  append(bytes, share(0.5));
+  append(bytes, share(0.5));
+  append(bytes, {37});  // corners less three
+  for (int i = 0; i < 40; ++i)
+    append(bytes, {static_cast<int>(std::lround(19 + 2 * std::cos(2 * M_PI * nodes * i / 40)))});
+  append(bytes, {0, png});  // nothing more
+  return choices(bytes);
 }
 
 /// A dictionary for libFuzzer: the names of sections and keys and what they may be.
@@ -64,11 +97,10 @@ int main(int argc, char** argv) {
         "fBucklingStiffnessU,fBucklingStiffnessV,fBucklingStiffnessH,fBuLR,fBvLR,fBhLR\n"
         "x,Twill,Woven,,Cotton 97; Spandex / Elastane 3,168,1e6,1e6,5e4,20000,2e4,2e4,.8,.8,.8,.3,"
         ".3,.3\n");
-  const std::string choices("\x80\x80\x80\x80\x80\x80\x80\x80\x00\x01", 10);  // scale, bits
-  write(folder / "photograph/png", silhouette(".png") + choices);
-  write(folder / "photograph/jpeg", silhouette(".jpg") + choices);
-  std::string disc(60, '\x14');  // radii of 20 and more of the rest
-  write(folder / "photograph/drawn", disc + std::string("\xff\x00\x50\x50\x00\x00", 6));
+  write(folder / "photograph/png", silhouette(".png"));
+  write(folder / "photograph/jpeg", silhouette(".jpg"));
+  for (const int nodes : {0, 5, 8})
+    write(folder / "photograph" / std::to_string(nodes), drawn(nodes, nodes > 5));
   const std::string nul(1, '\0');
   write(folder / "config/changed", "[experiment]\nkind = 'drape'\n" + nul + "mesh.vertices = auto" +
                                        nul + "fabric.k_u=.5" + nul + "start.protocol=lobes");
