@@ -202,8 +202,9 @@ TEST(Config, AllMistakesInTheOrderOfTheFile) {
 }
 
 TEST(Config, DamagedText) {
-  for (const char* text : {"[\\", "[[\\", "[ \\", "[\\]", "\\", "a.\\", "[a", "[\"", "a = \"",
-                           "a = [", "\xff\xfe", "[mesh]\nseed = \x80", "a = 1 b", "= 1"}) {
+  for (const char* text :
+       {"[\\", "[[\\", "[ \\", "[\\]", "\\", "a.\\", "[a", "[\"", "a = \"", "a = [", "\xff\xfe",
+        "[mesh]\nseed = \x80", "a = 1 b", "= 1", "a = [\xcf\x9a", "a = [1,\xe2\xb9\x8e]"}) {
     const std::string error = error_of(text);
     EXPECT_TRUE(error.starts_with("f.toml:1:") || error.starts_with("f.toml:2:")) << error;
   }
