@@ -33,14 +33,22 @@ struct Table {
   std::vector<std::string> paths;  ///< of its objects; "." is the root
 };
 
-const fs::path& folder() {
-  static const fs::path path = [] {
-    char name[] = "/dev/shm/drape_fuzz_XXXXXX";
-    if (!mkdtemp(name)) abort();
-    atexit([] { fs::remove_all(folder()); });
-    return fs::path(name);
-  }();
-  return path;
+/// In memory; gone at the end of the program.
+class Folder {
+ public:
+  Folder() {
+    if (!mkdtemp(name_)) abort();
+  }
+  ~Folder() { fs::remove_all(name_); }
+  fs::path path() const { return name_; }
+
+ private:
+  char name_[27] = "/dev/shm/drape_fuzz_XXXXXX";
+};
+
+fs::path folder() {
+  static const Folder only;
+  return only.path();
 }
 
 std::vector<std::string> paths_in(hid_t file) {
