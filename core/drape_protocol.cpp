@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <sstream>
 #include <utility>
 #include <vector>
 
-#include "core/coarse_level.h"
+#include "core/coarse_choice.h"
 #include "core/random.h"
 
 namespace drape {
@@ -66,43 +65,9 @@ Equilibrium ramp(Potential potential, const RampSteps& how, std::uint64_t seed,
   return result;
 }
 
-/// A failure at less gravity, with a softer membrane or on another mesh ends a protocol: what is
-/// said of its state is to be true of the potential asked for.
-Equilibrium restated(const Potential& potential, Equilibrium result) {
-  if (result.converged()) return result;
-  VecX gradient;
-  result.energy = potential.energy_and_gradient(result.x, gradient);
-  result.residual = potential.residual(gradient);
-  result.rounding_floor = potential.rounding_floor(result.x);
-  return result;
-}
-
-/// `choose` finds a state on the coarse mesh; the equilibrium on the mesh itself starts there.
-Equilibrium chosen_on_coarse_mesh(
-    const Potential& potential, const EquilibriumOptions& options,
-    const std::function<Equilibrium(const Potential&, const EquilibriumOptions&)>& choose) {
-  Potential fine = potential;
-  fine.set_guide(std::nullopt);
-  const CoarseLevel* level = potential.discretization().coarse();
-  if (level == nullptr) return restated(fine, choose(fine, options));
-
-  Potential coarse(level->discretization, potential.fabric(), potential.reading(),
-                   potential.gravity());
-  coarse.set_support(potential.support());
-  EquilibriumOptions loose = options;
-  loose.tolerance = std::max(kLooseTolerance, options.tolerance);
-  loose.certify = false;
-  Equilibrium chosen = choose(coarse, loose);
-  chosen.x = level->transfer(chosen.x);
-  if (!chosen.converged()) {
-    chosen.preconditioner = nullptr;  // of the coarse mesh
-    return restated(fine, std::move(chosen));
-  }
-  EquilibriumOptions rest = options;
-  rest.max_iterations -= chosen.newton_iterations;
-  Equilibrium result = solve_equilibrium(fine, chosen.x, rest);
-  result.add_work_of(chosen);
-  return result;
+Potential without_guide(Potential potential) {
+  potential.set_guide(std::nullopt);
+  return potential;
 }
 
 }  // namespace
@@ -110,7 +75,8 @@ Equilibrium chosen_on_coarse_mesh(
 Equilibrium drape_by_coarse_ramp(const Potential& potential, std::uint64_t seed,
                                  const EquilibriumOptions& options) {
   Equilibrium result = chosen_on_coarse_mesh(
-      potential, options, [&](const Potential& coarse, const EquilibriumOptions& loose) {
+      without_guide(potential), options,
+      [&](const Potential& coarse, const EquilibriumOptions& loose) {
         return ramp(coarse, {.steps = kCoarseRampSteps, .predicted = true}, seed, loose);
       });
   result.protocol = "coarse_ramp";
@@ -119,8 +85,7 @@ Equilibrium drape_by_coarse_ramp(const Potential& potential, std::uint64_t seed,
 
 Equilibrium drape_by_ramp(const Potential& potential, std::uint64_t seed,
                           const EquilibriumOptions& options) {
-  Potential free = potential;
-  free.set_guide(std::nullopt);
+  const Potential free = without_guide(potential);
   Equilibrium result =
       restated(free, ramp(free, {.steps = kRampSteps, .predicted = false}, seed, options));
   result.protocol = "ramp";
@@ -185,7 +150,8 @@ Equilibrium solve_stiffening(Potential potential, const Scene& scene, const VecX
 Equilibrium drape_by_lobes(const Potential& potential, const Scene& scene, int lobes, double phase,
                            const EquilibriumOptions& options) {
   Equilibrium result = chosen_on_coarse_mesh(
-      potential, options, [&](const Potential& coarse, const EquilibriumOptions& loose) {
+      without_guide(potential), options,
+      [&](const Potential& coarse, const EquilibriumOptions& loose) {
         return solve_stiffening(coarse, scene, folded_state(coarse.mesh(), scene, lobes, phase),
                                 loose);
       });

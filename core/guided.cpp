@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/coarse_choice.h"
 #include "core/drape_protocol.h"
 
 namespace drape {
@@ -13,6 +14,18 @@ Equilibrium solve_under_guide(const Potential& potential, const Scene& scene, co
   guided.set_guide(guide);
   Equilibrium result =
       solve_stiffening(guided, scene, state_from_outline(potential.mesh(), scene, guide), options);
+  result.protocol = "guided";
+  return result;
+}
+
+Equilibrium solve_under_guide_from_coarse(const Potential& potential, const Scene& scene,
+                                          const Guide& guide, const EquilibriumOptions& options) {
+  Potential guided = potential;
+  guided.set_guide(guide);
+  Equilibrium result = chosen_on_coarse_mesh(
+      guided, options, [&](const Potential& coarse, const EquilibriumOptions& loose) {
+        return solve_under_guide(coarse, scene, guide, loose);
+      });
   result.protocol = "guided";
   return result;
 }

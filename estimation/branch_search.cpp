@@ -2,6 +2,8 @@
 
 #include <tuple>
 
+#include "estimation/staged_fit.h"
+
 namespace drape {
 namespace {
 
@@ -21,6 +23,28 @@ std::vector<GuidedStart> guided_starts(const std::vector<double>& guide, int har
           {harmonics, kappa, 1},
           {kFineHarmonics, 100 * kappa, kStiffer},
           {kFineHarmonics, 10 * kappa, 1}};
+}
+
+std::vector<Move> neighbour_moves(int harmonics) {
+  std::vector<Move> moves;
+  for (const double factor : {2., 3., 4., 5., 6., 8., 10., 12., 15., 20., 25., 30.})
+    moves.emplace_back([factor](StagedFit& fit) { return fit.overshoot(factor); });
+  for (const FreeDrape how : {FreeDrape::lobes, FreeDrape::outline})
+    moves.emplace_back([how](StagedFit& fit) { return fit.drape_freely(how); });
+  const std::vector<GuidedStart> starts{{harmonics, 1, 1},
+                                        {harmonics, 1, 1, true},
+                                        {harmonics, 1, 3},
+                                        {kFineHarmonics, 10, 1, true},
+                                        {harmonics, 1, kStiffer, true},
+                                        {kFineHarmonics, 100, 1},
+                                        {kFineHarmonics, 10, 1},
+                                        {harmonics, 0.1, 1},
+                                        {harmonics, 1, kStiffer},
+                                        {harmonics, 1, 3 * kStiffer}};
+  for (const GuidedStart& start : starts)
+    moves.emplace_back([start](StagedFit& fit) { return fit.lay_and_release(start); });
+  moves.emplace_back([](StagedFit& fit) { return fit.drape_freely(FreeDrape::ramp); });
+  return moves;
 }
 
 bool explains(double miss) { return miss <= kExplained; }

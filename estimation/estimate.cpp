@@ -1,9 +1,11 @@
 #include "estimation/estimate.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "core/cpu_clock.h"
 #include "estimation/staged_fit.h"
@@ -14,13 +16,18 @@ namespace {
 constexpr double kStageTolerance = 1e-3;  // relative cost change that ends a guided fit
 constexpr int kStageIterations = 15;      // on a wrong branch a guided fit creeps on
 constexpr double kFinalTolerance =
-    1e-6;  // of the free fit, far below what noise leaves of the cost
+    1e-6;                                // of the free fit, far below what noise leaves of the cost
+constexpr int kNeighbourIterations = 8;  // on the right branch they reach the noise
+constexpr double kWorthFitting = 2;      // miss of a neighbour over that of the best
+constexpr double kBetter = 0.9;
 
 /// What became of a fit from one start.
 struct Attempt {
   EstimateOutcome outcome = EstimateOutcome::no_start;
   double miss = std::numeric_limits<double>::infinity();  ///< over the noise
   FitState state;
+
+  bool free() const { return outcome <= EstimateOutcome::not_converged; }
 };
 
 class Estimation {
@@ -58,9 +65,10 @@ class Estimation {
     return released(std::nullopt);
   }
 
-  /// Fits from one guided start after the other, until a free one explains the outlines, be it that
-  /// its branch ends before its minimum. Each takes up the unknowns that explained them best under
-  /// the first guide.
+  /// Fits from one guided start after the other, until a free one has the nodes observed or
+  /// explains the outlines, be it that its branch ends before its minimum. Each takes up the
+  /// unknowns that explained them best under the first guide. What misfit remains then is left to
+  /// neighbours.
   Attempt search() {
     Attempt best;
     VecX u = fit_.state().u;
@@ -69,10 +77,41 @@ class Estimation {
       fit_.set_unknowns(u);
       if (!fit_.lay_along(start)) continue;
       Attempt now = guided_attempt(guided_miss, u);
+      const bool ends = now.free() && (fit_.same_nodes() || explains(now.miss));
       if (is_better(now.outcome, now.miss, best.outcome, best.miss)) best = std::move(now);
-      if (best.outcome <= EstimateOutcome::not_converged && explains(best.miss)) break;
+      if (ends) break;
     }
-    return best;
+    return best.free() && !explains(best.miss) ? with_neighbours(std::move(best)) : best;
+  }
+
+  /// Moves from the best drape to better ones, until no move finds one or moves run out.
+  Attempt with_neighbours(Attempt best) {
+    const std::vector<Move> moves = neighbour_moves(options_.guide_harmonics);
+    const double first_miss = best.miss;
+    std::vector<FitState> known{best.state};
+    size_t since_better = 0;
+    for (int tried = 0; tried < options_.max_moves && since_better < moves.size(); ++tried) {
+      if (explains(best.miss)) break;
+      ++since_better;
+      const size_t which = static_cast<size_t>(tried) % moves.size();
+      fit_.take_up(best.state);
+      if (!moves[which](fit_) || !fit_.same_nodes()) continue;
+      if (std::any_of(known.begin(), known.end(),
+                      [&](const FitState& state) { return fit_.is_at(state); }))
+        continue;
+      known.push_back(fit_.state());
+      if (fit_.largest_miss() > kWorthFitting * best.miss) continue;
+      fit_.minimise(kStageTolerance, kNeighbourIterations);
+      const double miss = fit_.largest_miss();
+      if (miss > kBetter * best.miss || !fit_.same_nodes()) continue;
+      best.state = fit_.state();
+      best.miss = miss;
+      known = {best.state};
+      since_better = 0;
+    }
+    if (best.miss == first_miss) return best;
+    fit_.take_up(best.state);
+    return released(std::nullopt);
   }
 
   /// From the guided start at hand to a free fit. One that explains the outlines no better than

@@ -5,7 +5,7 @@
 // rim towards the observed outline, and the fit itself runs on guided drapes while the guides of
 // all pictures are released together (kappa = 1, 0.1, 0.01, 0). Exact data have zero residual at
 // the truth for every kappa, so the guide biases nothing; without it a fit from elsewhere ends on a
-// neighbouring branch. Where a misfit above the noise remains, other guided starts are tried
+// neighbouring branch. Where a misfit above the noise remains, neighbours of the drape are tried
 // (branch_search.h). Only a fit counts that ends with kappa = 0 on a certified minimum, with the
 // nodes observed, and explains the outlines.
 //
@@ -42,7 +42,8 @@ struct EstimateOptions {
   EquilibriumOptions equilibrium;                ///< of the first, guided solve
   /// Along the unguided fit: trials that lose the branch are cheap to give up, Ceres shortens them.
   ContinuationOptions continuation{.halvings = 2, .largest_leap = 0.7};
-  int max_solves = 400;  ///< forward solves of one fit a picture, over all stages
+  int max_solves = 1000;  ///< forward solves of one fit a picture, over all stages
+  int max_moves = 100;    ///< to neighbouring drapes where a misfit remains; 0: none is tried
 };
 
 /// From good to bad.

@@ -2,12 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
+#include "core/coarse_choice.h"
+#include "core/drape_protocol.h"
 #include "core/guided.h"
 
 namespace drape {
+namespace {
+
+constexpr double kOvershootKappa = 1;
+constexpr double kSameDrape = 1e-5;     // [m]: neighbours differ by tenths of a millimetre
+constexpr std::uint64_t kRampSeed = 2;  // of the noise in the flat start
+
+}  // namespace
 
 StagedFit::StagedFit(const std::vector<Picture>& pictures, const Fabric& start,
                      const EstimateOptions& options)
@@ -62,11 +73,11 @@ bool StagedFit::lay_along(size_t i, const GuidedStart& start) {
   ContactDrape draped = drape_with_contact(
       potentials_[i], scene, options_.contact,
       [&](const Potential& potential) {
-        if (start.bending == 1)
-          return solve_under_guide(potential, scene, guide, options_.equilibrium);
+        const auto solve = start.coarse ? solve_under_guide_from_coarse : solve_under_guide;
+        if (start.bending == 1) return solve(potential, scene, guide, options_.equilibrium);
         Potential bent = potential;
         bent.set_fabric(stiffer);
-        const Equilibrium first = solve_under_guide(bent, scene, guide, options_.equilibrium);
+        const Equilibrium first = solve(bent, scene, guide, options_.equilibrium);
         Equilibrium result = solve_equilibrium(potential, first.x, options_.equilibrium);
         result.add_work_of(first);
         result.protocol = first.protocol;
@@ -96,13 +107,20 @@ bool StagedFit::set_guides(double kappa) {
   std::vector<Equilibrium> drapes;
   for (size_t i = 0; i < pictures(); ++i) {
     Potential& potential = potentials_[i];
-    const Equilibrium& last = state_.pictures[i].equilibrium;
     potential.set_fabric(state_.fabric);
     potential.set_guide(kappa > 0 ? std::optional(guide_of(i, kappa)) : std::nullopt);
-    drapes.push_back(solve_equilibrium(potential, last.x, options_.equilibrium));
-    drapes.back().protocol = last.protocol;
+    drapes.push_back(
+        solve_equilibrium(potential, state_.pictures[i].equilibrium.x, options_.equilibrium));
+  }
+  return replace_drapes(std::move(drapes), kappa);
+}
+
+/// Makes the drapes under guides of strength kappa those at hand, if all are equilibria.
+bool StagedFit::replace_drapes(std::vector<Equilibrium> drapes, double kappa) {
+  for (size_t i = 0; i < pictures(); ++i) {
     ++solves_;
-    if (drapes.back().converged()) continue;
+    drapes[i].protocol = state_.pictures[i].equilibrium.protocol;
+    if (drapes[i].converged()) continue;
     state_.message = "no equilibrium at kappa = " + std::to_string(kappa) + " for picture " +
                      std::to_string(i + 1);
     return false;
@@ -113,6 +131,65 @@ bool StagedFit::set_guides(double kappa) {
     make_known(i);
   }
   return true;
+}
+
+bool StagedFit::lay_and_release(const GuidedStart& start) {
+  return lay_along(start) && set_guides(start.kappa / 10) && set_guides(0);
+}
+
+bool StagedFit::overshoot(double factor) {
+  std::vector<Equilibrium> drapes;
+  for (size_t i = 0; i < pictures(); ++i) {
+    const Scene& scene = picture(i).scene;
+    OutlineObservation beyond = picture(i).seen;
+    beyond.profile += factor * (beyond.profile - profile_of(i));
+    beyond.profile = beyond.profile.cwiseMax(scene.support_radius).cwiseMin(scene.specimen_radius);
+    Potential& potential = potentials_[i];
+    potential.set_fabric(state_.fabric);
+    potential.set_guide(guide_towards(beyond, scene, objective_.placement_at(i, state_.u),
+                                      guide_harmonics_, kOvershootKappa));
+    const Equilibrium pulled =
+        solve_equilibrium(potential, state_.pictures[i].equilibrium.x, options_.equilibrium);
+    ++solves_;
+    potential.set_guide(std::nullopt);
+    drapes.push_back(solve_equilibrium(potential, pulled.x, options_.equilibrium));
+  }
+  return replace_drapes(std::move(drapes), 0);
+}
+
+Equilibrium StagedFit::drape_freely(size_t i, FreeDrape how) const {
+  const Potential& potential = potentials_[i];
+  const Scene& scene = picture(i).scene;
+  const EquilibriumOptions& options = options_.equilibrium;
+  const Guide outline = guide_of(i, 0);
+  switch (how) {
+    case FreeDrape::lobes: {
+      const int nodes = node_count(picture(i).seen.profile);
+      const Harmonics& radius = outline.radius;
+      const bool folded = nodes > 0 && nodes < radius.a.size();
+      const double phase = folded ? std::atan2(radius.b[nodes], radius.a[nodes]) / nodes : 0;
+      return drape_by_lobes(potential, scene, nodes, phase, options);
+    }
+    case FreeDrape::outline:
+      return chosen_on_coarse_mesh(
+          potential, options, [&](const Potential& coarse, const EquilibriumOptions& loose) {
+            return solve_stiffening(coarse, scene,
+                                    state_from_outline(coarse.mesh(), scene, outline), loose);
+          });
+    case FreeDrape::ramp:
+      return drape_by_ramp(potential, kRampSeed, options);
+  }
+  throw std::logic_error("a free drape without a function");
+}
+
+bool StagedFit::drape_freely(FreeDrape how) {
+  std::vector<Equilibrium> drapes;
+  for (size_t i = 0; i < pictures(); ++i) {
+    potentials_[i].set_fabric(state_.fabric);
+    potentials_[i].set_guide(std::nullopt);
+    drapes.push_back(drape_freely(i, how));
+  }
+  return replace_drapes(std::move(drapes), 0);
 }
 
 /// A guide holds the outline while the cloth below snaps from one state to the next: such steps
@@ -164,6 +241,14 @@ bool StagedFit::keep_drapes(const VecX& u) {
   for (size_t i = 0; i < pictures(); ++i) state_.pictures[i].equilibrium = std::move(drapes[i]);
   state_.fabric = space().decode(u.head(space().size()));
   return true;
+}
+
+bool StagedFit::is_at(const FitState& state) const {
+  bool same = state_.u == state.u && state_.kappa == state.kappa;
+  for (size_t i = 0; same && i < pictures(); ++i)
+    same = largest_distance(state_.pictures[i].equilibrium.x, state.pictures[i].equilibrium.x) <
+           kSameDrape;
+  return same;
 }
 
 VecX StagedFit::profile_of(size_t i) const {

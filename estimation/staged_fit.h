@@ -22,6 +22,13 @@ struct FitState {
   std::string message;
 };
 
+/// A drape without a guide, of the fabric at hand.
+enum class FreeDrape {
+  lobes,    ///< by the protocol of that name, with the nodes of the picture where it has them
+  outline,  ///< laid along the outline on the coarse mesh
+  ramp,     ///< by the protocol of that name
+};
+
 class StagedFit {
  public:
   StagedFit(const std::vector<Picture>& pictures, const Fabric& start,
@@ -30,6 +37,15 @@ class StagedFit {
   /// The drape of every picture under the guides of a start, at the unknowns at hand; false when
   /// one has none. What acts on each drape is decided here.
   bool lay_along(const GuidedStart& start);
+
+  /// The same, and the guides let go while the unknowns stay.
+  bool lay_and_release(const GuidedStart& start);
+
+  /// The drapes at hand are pulled past the outlines, by `factor` times what is missed, and let go.
+  bool overshoot(double factor);
+
+  /// Drapes that owe nothing to those at hand but what acts on them.
+  bool drape_freely(FreeDrape how);
 
   /// The start states that the pictures bring.
   void take_start_states();
@@ -46,6 +62,8 @@ class StagedFit {
   void take_up(const FitState& state) { state_ = state; }
   /// Goes back to unknowns alone; the drapes are to be laid again.
   void set_unknowns(const VecX& u);
+  /// Whether the drapes at hand are those of `state`: the same fabric and the same equilibria.
+  bool is_at(const FitState& state) const;
 
   /// Largest rms miss of an outline over the standard deviation of its noise.
   double largest_miss() const;
@@ -67,6 +85,8 @@ class StagedFit {
   const Picture& picture(size_t i) const { return objective_.picture(i); }
   Guide guide_of(size_t i, double kappa) const;
   bool lay_along(size_t i, const GuidedStart& start);
+  Equilibrium drape_freely(size_t i, FreeDrape how) const;
+  bool replace_drapes(std::vector<Equilibrium> drapes, double kappa);
   ContinuationOptions continuation() const;
   void make_known(size_t i);
   bool keep_drapes(const VecX& u);

@@ -125,6 +125,9 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("estimate", "guide_harmonics", "", {1, 180, true},
       "Harmonics of the profile that start and guide follow.",
       DRAPE_MEMBER(estimate.guide_harmonics));
+  add("estimate", "max_moves", "", {0, 10000, true},
+      "Moves to neighbouring branches that are tried where a misfit remains.",
+      DRAPE_MEMBER(estimate.max_moves));
 
   add("photograph", "files", "", kAny,
       "PNG or JPEG with one silhouette each, seen from above: pictures of one fabric's specimens, "

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "core/coarse_level.h"
 #include "core/random.h"
 #include "experiments/figure.h"
 #include "experiments/interrupt.h"
@@ -50,9 +51,9 @@ Targets read_targets(const Settings& settings) {
   std::vector<Record> all = read_records(settings.estimate.dataset);
   for (int index : chosen_records(settings, static_cast<int>(all.size())))
     targets.records.push_back(all[static_cast<size_t>(index)]);
-  targets.discretization = std::make_shared<const Discretization>(
+  targets.discretization = with_coarse_level(
       make_mesh(stored.rest_uv, stored.triangles, stored.fixed, stored.clamp_wing_factor),
-      settings.solver.factorization);
+      stored.scene, {.clamp_wing_factor = stored.clamp_wing_factor}, settings.solver.factorization);
   targets.header = records_header(settings, targets.discretization->mesh());
   targets.header.scene = stored.scene;
   targets.header.reading = stored.reading;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/coarse_level.h"
 #include "core/drape_protocol.h"
 #include "core/guided.h"
 #include "core/outline.h"
@@ -28,6 +29,26 @@ TEST(Guided, FindsADrapeFromItsOutline) {
   EXPECT_LE(potential.residual(potential.gradient(drape.x)), 1e-8);
   const double rms = std::sqrt((profile(drape.x) - profile(target.x)).squaredNorm() / kProfileSize);
   EXPECT_LE(rms, 1e-5);  // tolerances of two solves; a neighbouring branch is .4 mm away
+}
+
+TEST(Guided, ChosenOnTheCoarseMeshTheDrapeStillFollowsItsOutline) {
+  const Potential potential(make_disc(kCusick, {.vertices = 900}), stiff_fabric(), {},
+                            kCusick.gravity);
+  const Equilibrium drape = drape_by_lobes(potential, kCusick, 5, 0.3);
+  const VecX observed =
+      radial_profile(trace_outline(potential.mesh(), kCusick, drape.x).points).radius;
+  const Guide guide{.radius = harmonics(observed, 24)};
+  const Equilibrium found = solve_under_guide_from_coarse(potential, kCusick, guide);
+  ASSERT_TRUE(found.converged());
+  EXPECT_EQ(found.protocol, "guided");
+  EXPECT_EQ(found.x.size(), 3 * potential.mesh().vertex_count());
+  const VecX profile =
+      radial_profile(trace_outline(potential.mesh(), kCusick, found.x).points).radius;
+  EXPECT_LE((profile - observed).cwiseAbs().maxCoeff(), 1e-3);  // kappa = 1 pulls with the weight
+  // on a mesh without a coarse level there is only one way
+  const Potential coarse(disc(400), stiff_fabric(), {}, kCusick.gravity);
+  EXPECT_EQ(solve_under_guide_from_coarse(coarse, kCusick, guide).x,
+            solve_under_guide(coarse, kCusick, guide).x);
 }
 
 TEST(Guided, NeedsAStrength) {
