@@ -1,6 +1,6 @@
 #include "experiments/recovery_report.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -16,13 +16,6 @@ constexpr double kBendingError = 0.02, kShearError = 0.10;  // what counts as re
 constexpr double kNoMisfit = 0.01;                          // of the stated noise
 constexpr double kAtBound = 1e-3;                           // of the logarithm
 
-struct Band {
-  const char* label;
-  double low, high;  // drape coefficient
-};
-constexpr std::array<Band, 4> kBands{
-    {{"0-15", 0, 0.15}, {"15-55", 0.15, 0.55}, {"55-80", 0.55, 0.8}, {"80-100", 0.8, 1.01}}};
-
 bool is_recovered(const Record& record, const std::vector<Parameter>& parameters) {
   for (Parameter p : parameters) {
     const double error = std::abs(record.estimate->fabric[p] / record.fabric[p] - 1);
@@ -37,6 +30,54 @@ bool at_bound(const EstimateRecord& estimate, const EstimateSettings& settings) 
                                  std::log(settings.bounds) - kAtBound)
       return true;
   return false;
+}
+
+/// 10 per cent wide, so that the soft and the stiff can be told from the rest.
+std::string drape_coefficient_band(const Record& record) {
+  const int tens = std::clamp(static_cast<int>(10 * record.observation.drape_coefficient), 0, 9);
+  return std::to_string(10 * tens) + "-" + std::to_string(10 * tens + 10);
+}
+
+std::string type_group(const Record& record) {
+  if (record.category.empty()) return "no tag";
+  return record.subcategory.empty() ? record.category : record.category + ", " + record.subcategory;
+}
+
+double mean_bending(const Fabric& fabric) { return (fabric.k_bu + fabric.k_bv + fabric.k_bh) / 3; }
+
+/// One line of a table of errors, over fits of every outcome.
+nlohmann::ordered_json error_line(const std::vector<const Record*>& records,
+                                  const EstimateSettings& settings) {
+  std::vector<double> bending, shear, rms, cpu;
+  int recovered = 0, succeeded = 0;
+  for (const Record* record : records) {
+    const EstimateRecord& e = *record->estimate;
+    recovered += is_recovered(*record, settings.parameters);
+    succeeded += e.outcome == name(EstimateOutcome::succeeded);
+    bending.push_back(std::abs(mean_bending(e.fabric) / mean_bending(record->fabric) - 1));
+    shear.push_back(std::abs(e.fabric.k_h / record->fabric.k_h - 1));
+    rms.push_back(1e3 * e.outline_rms);
+    cpu.push_back(e.stats.cpu_seconds);
+  }
+  return {{"fabrics", records.size()},
+          {"succeeded", succeeded},
+          {"recovered", recovered},
+          {"median_mean_k_b_error", median(bending)},
+          {"median_k_h_error", median(shear)},
+          {"median_outline_rms_mm", median(rms)},
+          {"mean_cpu_seconds", mean(cpu)}};
+}
+
+/// The lines of a table of errors, by what `group` says of a fabric.
+nlohmann::ordered_json error_table(const std::vector<Record>& records,
+                                   const EstimateSettings& settings,
+                                   std::string (*group)(const Record&)) {
+  std::map<std::string, std::vector<const Record*>> groups;
+  for (const Record& record : records)
+    if (record.estimate) groups[group(record)].push_back(&record);
+  nlohmann::ordered_json table = nlohmann::ordered_json::object();
+  for (const auto& [label, members] : groups) table[label] = error_line(members, settings);
+  return table;
 }
 
 }  // namespace
@@ -58,19 +99,12 @@ nlohmann::ordered_json recovery_summary(const EstimateSettings& settings,
   std::vector<std::vector<double>> error(settings.parameters.size());
   std::vector<int> identifiable(settings.parameters.size(), 0);
   std::map<std::string, int> failures;
-  std::array<int, kBands.size()> band_recovered{}, band_fabrics{};
   for (const Record& record : records) {
     if (!record.estimate) continue;
     const EstimateRecord& e = *record.estimate;
     const std::string end = recovery_class(record, settings);
     const bool is_recovered = end == "recovered";
     if (!is_recovered) ++failures[end];
-    for (size_t b = 0; b < kBands.size(); ++b) {
-      const double dc = record.observation.drape_coefficient;
-      if (dc < kBands[b].low || dc >= kBands[b].high) continue;
-      ++band_fabrics[b];
-      band_recovered[b] += is_recovered;
-    }
     shared += e.branch_shared;
     recovered += is_recovered;
     shared_recovered += e.branch_shared && is_recovered;
@@ -91,10 +125,8 @@ nlohmann::ordered_json recovery_summary(const EstimateSettings& settings,
   summary["fabrics"] = records.size();
   summary["succeeded"] = succeeded;
   summary["recovered"] = recovered;
-  for (size_t b = 0; b < kBands.size(); ++b)
-    if (band_fabrics[b] > 0)
-      summary["recovered_by_drape_coefficient"][kBands[b].label] = {
-          {"fabrics", band_fabrics[b]}, {"recovered", band_recovered[b]}};
+  summary["by_drape_coefficient"] = error_table(records, settings, drape_coefficient_band);
+  summary["by_type"] = error_table(records, settings, type_group);
   summary["failures"] = failures;
   if (settings.start == EstimateStart::continued) {
     summary["branches_shared"] = shared;
