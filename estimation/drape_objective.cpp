@@ -39,7 +39,11 @@ DrapeObjective::DrapeObjective(std::vector<Picture> pictures, ParameterSpace spa
 }
 
 int DrapeObjective::residuals() const {
-  int count = static_cast<int>(prior_weight_.rows());
+  return picture_residuals() + static_cast<int>(prior_weight_.rows());
+}
+
+int DrapeObjective::picture_residuals() const {
+  int count = 0;
   for (const PictureMisfit& misfit : misfits_) count += misfit.residual_count();
   return count;
 }

@@ -28,6 +28,8 @@ class DrapeObjective final : public FitObjective {
   int unknowns() const override { return unknowns_; }
   /// Those of the pictures, then those of the priors.
   int residuals() const override;
+  /// Those of the pictures, which come before those of the priors.
+  int picture_residuals() const;
   const ParameterSpace& space() const { return space_; }
   size_t pictures() const { return misfits_.size(); }
   const Picture& picture(size_t i) const { return misfits_[i].picture(); }

@@ -305,6 +305,8 @@ Posterior StagedFit::posterior() {
   MatX jacobian;
   if (!known || !objective_.residuals_at(state_.u, r, &jacobian))
     jacobian.setZero(0, objective_.unknowns());  // nothing is known
+  else
+    jacobian.topRows(objective_.picture_residuals()) /= std::max(1.0, largest_miss());
   return laplace(space(), state_.u.head(space().size()), jacobian,
                  options_.prior ? options_.prior->covariance : MatX());
 }

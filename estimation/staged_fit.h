@@ -73,7 +73,9 @@ class StagedFit {
 
   /// Looks at the drapes at hand and measures their misfits.
   void examine();
-  /// Laplace's posterior at the state at hand; NaN unless its drapes are free and stable.
+  /// Laplace's posterior at the state at hand; NaN unless its drapes are free and stable. Where an
+  /// outline is missed by more than its noise, what is missed is taken for the noise (the scale
+  /// factor of Birge 1932), so that what the model cannot explain widens the intervals.
   Posterior posterior();
 
   int forward_solves() const { return solves_ + objective_.solves(); }

@@ -148,7 +148,7 @@ struct EstimateSettings {
   EstimateStart start = EstimateStart::guided;
   int guide_harmonics = 24;
   std::vector<double> guide{1, 0.1, 0.01};
-  int max_moves = 100;  ///< to neighbouring branches where a misfit remains
+  int max_moves = 50;  ///< to neighbouring branches where a misfit remains
 };
 
 /// What fabrics a dataset without a table has.

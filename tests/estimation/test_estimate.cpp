@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "core/disc_mesh.h"
 #include "core/drape_protocol.h"
@@ -226,6 +227,26 @@ TEST(Estimate, AMissAboveTheNoiseIsNoSuccess) {
               found.outcome == EstimateOutcome::branch_lost)
       << name(found.outcome);
   EXPECT_GT(found.pictures[0].outline_rms, 1.5 * seen.noise);
+}
+
+TEST(Estimate, AMissAboveTheNoiseWidensTheIntervals) {
+  const auto log_sd = [](double noise) {
+    OutlineObservation seen = truth().seen;
+    seen.noise = noise;
+    EstimateOptions options;
+    options.parameters = {Parameter::k_bu};
+    options.max_moves = 0;
+    Fabric start = stiff_fabric();
+    start.k_bv *= 1.3;  // held: no k_bu explains the outline
+    const Picture picture{truth().potential, kCusick, seen, truth().equilibrium};
+    const Estimate found = estimate({picture}, start, options);
+    return std::pair(found.posterior.log_sd[0], found.pictures[0].outline_rms);
+  };
+  const auto [narrow, missed] = log_sd(1e-6);
+  ASSERT_GT(missed, 1e-5);
+  // the misfit stands for the noise, whatever was said of it, until the noise said is larger
+  EXPECT_NEAR(log_sd(2e-6).first / narrow, 1, 0.01);
+  EXPECT_NEAR(log_sd(4 * missed).first / narrow, 4, 0.2);
 }
 
 TEST(Estimate, OutcomesHaveNames) {
