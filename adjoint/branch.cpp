@@ -11,21 +11,30 @@
 namespace drape {
 namespace {
 
-/// One predicted and corrected step; nothing if it left the branch.
+constexpr int kPatience = 8;  // iterations in a row further from the prediction than may count
+
+/// One predicted and corrected step; nothing if it left the branch. The way from a snap to the next
+/// minimum is long, and its end counts for nothing: the solve stops once it stays away.
 std::optional<BranchState> step_to(Potential& potential, const FabricPath& path,
                                    const BranchState& from, double s, const BranchOptions& options,
                                    ContinuationCost& cost) {
   potential.set_fabric(path.fabric(s));
   const VecX predicted = from.equilibrium.x + (s - from.s) * from.dx_ds;
+  const double moved = largest_distance(predicted, from.equilibrium.x);
+  const double allowed = std::max(options.noise, options.largest_deviation * moved);
+  int away = 0;
+  EquilibriumOptions correction = options.equilibrium;
+  correction.go_on = [&](const VecX& x, const VecX& gradient) {
+    away = largest_distance(x, predicted) > allowed ? away + 1 : 0;
+    const auto& go_on = options.equilibrium.go_on;
+    return away < kPatience && (!go_on || go_on(x, gradient));
+  };
   Equilibrium equilibrium =
-      solve_equilibrium(potential, predicted, options.equilibrium, from.equilibrium.factor);
+      solve_equilibrium(potential, predicted, correction, from.equilibrium.factor);
   ++cost.solves;
   cost.newton_iterations += equilibrium.newton_iterations;
   cost.factorizations += equilibrium.factorizations;
-  if (!equilibrium.converged()) return std::nullopt;
-  const double moved = largest_distance(predicted, from.equilibrium.x);
-  if (largest_distance(equilibrium.x, predicted) >
-      std::max(options.noise, options.largest_deviation * moved))
+  if (!equilibrium.converged() || largest_distance(equilibrium.x, predicted) > allowed)
     return std::nullopt;
   equilibrium.protocol = from.equilibrium.protocol;
   return make_branch_state(potential, path, s, std::move(equilibrium));

@@ -141,5 +141,31 @@ TEST_F(Arch, AFoldIsWhereNaturalStepsEnd) {
   EXPECT_NEAR(again.s, fold.s, 1e-6);
 }
 
+TEST_F(Arch, AStepThatSnapsIsGivenUpOnTheWay) {
+  Fabric fabric;
+  fabric.areal_density = 0.003;
+  const double heavy = std::log(100.0);
+  const FabricPath path = scaled_path(fabric, {Parameter::areal_density});
+  Potential potential(discretization, fabric, {}, kCusick.gravity);
+  const BranchState start = make_branch_state(potential, path, 0, solve_equilibrium(potential, x));
+  int seen = 0;
+  BranchOptions options;
+  options.largest_step = options.smallest_step = heavy;
+  options.equilibrium.go_on = [&](const VecX&, const VecX&) { return ++seen > 0; };
+  BranchState state = start;
+  ContinuationCost cost;
+  ASSERT_FALSE(follow_minima(potential, path, heavy, options, state, cost));
+  EXPECT_EQ(state.s, 0);
+  EXPECT_EQ(cost.solves, 1);
+  EXPECT_GT(seen, 0);
+
+  // the same solve to its end, which is the arch that hangs
+  const Equilibrium hanging = solve_equilibrium(
+      potential, start.equilibrium.x + heavy * start.dx_ds, {}, start.equilibrium.factor);
+  ASSERT_TRUE(hanging.converged());
+  EXPECT_GT(largest_distance(hanging.x, start.equilibrium.x), kRise);
+  EXPECT_LT(2 * cost.newton_iterations, hanging.newton_iterations);
+}
+
 }  // namespace
 }  // namespace drape::test
