@@ -91,7 +91,7 @@ class Estimation {
     std::vector<FitState> known{best.state};
     size_t since_better = 0;
     for (int tried = 0; tried < options_.max_moves && since_better < moves.size(); ++tried) {
-      if (explains(best.miss)) break;
+      if (explains(best.miss) || fit_.spent()) break;
       ++since_better;
       const size_t which = static_cast<size_t>(tried) % moves.size();
       fit_.take_up(best.state);

@@ -80,6 +80,10 @@ class StagedFit {
 
   int forward_solves() const { return solves_ + objective_.solves(); }
   int iterations() const { return iterations_; }
+  /// Whether the forward solves allowed (EstimateOptions::max_solves) are spent.
+  bool spent() const {
+    return forward_solves() >= options_.max_solves * static_cast<int>(pictures());
+  }
 
  private:
   const ParameterSpace& space() const { return objective_.space(); }

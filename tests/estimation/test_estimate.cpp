@@ -148,6 +148,7 @@ TEST(Estimate, ContinuedFromTheDrapeOfTheStart) {
 TEST(Estimate, AnIterationLimitIsAnOutcome) {
   EstimateOptions options;
   options.max_iterations = 1;
+  options.max_moves = 0;
   options.parameters = {Parameter::k_bu, Parameter::k_bv};
   const Estimate found = estimate({truth().picture()}, truth().start(), options);
   EXPECT_EQ(found.outcome, EstimateOutcome::not_converged) << found.message;
@@ -221,6 +222,7 @@ TEST(Estimate, AMissAboveTheNoiseIsNoSuccess) {
   start.k_bh *= 2;
   seen.noise = 1e-5;
   options.guide = {1};
+  options.max_moves = 5;
   options.bound_factor = 1.5;
   const Estimate found = estimate({{truth().potential, kCusick, seen}}, start, options);
   EXPECT_TRUE(found.outcome == EstimateOutcome::misfit ||
@@ -283,6 +285,7 @@ TEST(Estimate, SpentSolvesAreNoSuccess) {
     options.max_solves = 5;
     const Estimate found = estimate({truth().picture()}, truth().start(), options);
     EXPECT_NE(found.outcome, EstimateOutcome::succeeded) << found.pictures[0].outline_rms;
+    EXPECT_LT(found.forward_solves, 50);  // every guided start is laid, no neighbour is tried
   }
 }
 
