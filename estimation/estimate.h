@@ -42,7 +42,7 @@ struct EstimateOptions {
   EquilibriumOptions equilibrium;                ///< of the first, guided solve
   /// Along the unguided fit: trials that lose the branch are cheap to give up, Ceres shortens them.
   ContinuationOptions continuation{.halvings = 2, .largest_leap = 0.7};
-  int max_solves = 1000;  ///< forward solves of one fit a picture, over all stages
+  int max_solves = 500;  ///< forward solves of one fit a picture, over all stages
   int max_moves = 50;     ///< to neighbouring drapes where a misfit remains; 0: none is tried
 };
 

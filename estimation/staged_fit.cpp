@@ -107,10 +107,10 @@ bool StagedFit::set_guides(double kappa) {
   std::vector<Equilibrium> drapes;
   for (size_t i = 0; i < pictures(); ++i) {
     Potential& potential = potentials_[i];
-    const Equilibrium& last = state_.pictures[i].equilibrium;
     potential.set_fabric(state_.fabric);
     potential.set_guide(kappa > 0 ? std::optional(guide_of(i, kappa)) : std::nullopt);
-    drapes.push_back(solve_equilibrium(potential, last.x, options_.equilibrium, last.factor));
+    drapes.push_back(
+        solve_equilibrium(potential, state_.pictures[i].equilibrium.x, options_.equilibrium));
   }
   return replace_drapes(std::move(drapes), kappa);
 }
