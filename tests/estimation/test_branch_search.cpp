@@ -80,6 +80,7 @@ TEST(BranchSearch, ANeighbourIsLeftForTheBranchObserved) {
   const Estimate left_alone = estimate({stiff_warp().picture()}, StiffWarp::start(), options);
   EXPECT_EQ(left_alone.outcome, EstimateOutcome::misfit) << name(left_alone.outcome);
   options.max_moves = 100;
+  options.max_solves = 1000;
   const Estimate moved = estimate({stiff_warp().picture()}, StiffWarp::start(), options);
   EXPECT_EQ(moved.outcome, EstimateOutcome::succeeded) << name(moved.outcome);
   EXPECT_LT(moved.pictures[0].outline_rms, 1.5e-5);
