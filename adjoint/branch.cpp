@@ -20,8 +20,7 @@ std::optional<BranchState> step_to(Potential& potential, const FabricPath& path,
                                    ContinuationCost& cost) {
   potential.set_fabric(path.fabric(s));
   const VecX predicted = from.equilibrium.x + (s - from.s) * from.dx_ds;
-  const double moved = largest_distance(predicted, from.equilibrium.x);
-  const double allowed = std::max(options.noise, options.largest_deviation * moved);
+  const double allowed = allowed_deviation(options, predicted, from.equilibrium.x);
   int away = 0;
   EquilibriumOptions correction = options.equilibrium;
   correction.go_on = [&](const VecX& x, const VecX& gradient) {
@@ -41,6 +40,10 @@ std::optional<BranchState> step_to(Potential& potential, const FabricPath& path,
 }
 
 }  // namespace
+
+double allowed_deviation(const BranchOptions& options, const VecX& predicted, const VecX& from) {
+  return std::max(options.noise, options.largest_deviation * largest_distance(predicted, from));
+}
 
 FabricPath scaled_path(const Fabric& fabric, const std::vector<Parameter>& parameters) {
   const auto scaled = [fabric, parameters](double s) {

@@ -40,6 +40,9 @@ struct BranchOptions {
   EquilibriumOptions equilibrium;
 };
 
+/// How far [m] a minimum may lie from the state predicted from `from` and still be on its branch.
+double allowed_deviation(const BranchOptions& options, const VecX& predicted, const VecX& from);
+
 /// Work done, summed over calls.
 struct ContinuationCost {
   int solves = 0;

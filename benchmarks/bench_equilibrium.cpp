@@ -71,10 +71,7 @@ std::vector<Step> steps_of_random_fabrics(const Potential& medium) {
 
 /// Whether the drape left its branch, by the rule of branch.h.
 bool snapped(const Step& step, const VecX& x) {
-  const BranchOptions rule;
-  return largest_distance(x, step.predicted) >
-         std::max(rule.noise,
-                  rule.largest_deviation * largest_distance(step.predicted, step.from.x));
+  return largest_distance(x, step.predicted) > allowed_deviation({}, step.predicted, step.from.x);
 }
 
 /// Re-solves from the state and the factor of the drape near by; a snap is another task, and is

@@ -43,7 +43,7 @@ struct EstimateOptions {
   /// Along the unguided fit: trials that lose the branch are cheap to give up, Ceres shortens them.
   ContinuationOptions continuation{.halvings = 2, .largest_leap = 0.7};
   int max_solves = 500;  ///< forward solves of one fit a picture, over all stages
-  int max_moves = 50;     ///< to neighbouring drapes where a misfit remains; 0: none is tried
+  int max_moves = 50;    ///< to neighbouring drapes where a misfit remains; 0: none is tried
 };
 
 /// From good to bad.

@@ -117,8 +117,8 @@ bool StagedFit::set_guides(double kappa) {
 
 /// Makes the drapes under guides of strength kappa those at hand, if all are equilibria.
 bool StagedFit::replace_drapes(std::vector<Equilibrium> drapes, double kappa) {
+  solves_ += static_cast<int>(drapes.size());
   for (size_t i = 0; i < pictures(); ++i) {
-    ++solves_;
     drapes[i].protocol = state_.pictures[i].equilibrium.protocol;
     if (drapes[i].converged()) continue;
     state_.message = "no equilibrium at kappa = " + std::to_string(kappa) + " for picture " +

@@ -7,8 +7,7 @@ namespace drape::baselines {
 const std::vector<Method>& methods() {
   static const std::vector<Method> list{
       {"core", "this solver", false, core_solver,
-       "Every step leads down and the end is certified by a Cholesky factor of the full Hessian. "
-       "It "
+       "Every step leads down and the end is certified by a Cholesky factor of the full Hessian. It "
        "can run out of time or reach the rounding floor of the residual, and says which "
        "(core/equilibrium.h)."},
       {"projected_newton", "Newton, projected Hessian", false, projected_newton,

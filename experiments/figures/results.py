@@ -1,11 +1,12 @@
 """Reads a results.h5 (schema drape-records) for the figures. Lengths stay in metres."""
 
-import argparse
 import sys
 from dataclasses import dataclass, field
 
 import h5py
 import numpy as np
+
+import command_line
 
 
 @dataclass
@@ -60,18 +61,8 @@ def draw(content, description, page):
 
     Ends with exit code 2 where the file cannot be read, or holds what page refuses (ValueError).
     """
-    parser = argparse.ArgumentParser(description=description,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", help=f"results.h5 of {content}")
-    parser.add_argument("--out", required=True, help="path and stem of the files to write")
-    arguments = parser.parse_args()
-    try:
-        drawn = page(read(arguments.results))
-    except ValueError as error:
-        print(f"{arguments.results}: {error}", file=sys.stderr)
-        sys.exit(2)
-    for path in drawn.save(arguments.out):
-        print(path)
+    command_line.draw("results", f"results.h5 of {content}", description,
+                      lambda path: page(read(path)))
 
 
 def read(path):

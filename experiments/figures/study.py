@@ -1,9 +1,9 @@
 """What the figures of studies share: they draw the summary of a run."""
-import argparse
 import json
-import sys
 
 from matplotlib.ticker import LogLocator, NullLocator
+
+import command_line
 
 
 def few_ticks(axis):
@@ -18,18 +18,11 @@ def draw(kind, description, page):
 
     Ends with exit code 2 where the file cannot be read as such a summary.
     """
-    parser = argparse.ArgumentParser(description=description,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("summary", help=f"summary.json of a run of kind {kind}")
-    parser.add_argument("--out", required=True, help="path and stem of the files to write")
-    arguments = parser.parse_args()
-    try:
-        with open(arguments.summary, encoding="utf-8") as file:
-            summary = json.load(file)
-        drawn = page(summary)
-    except (OSError, ValueError, KeyError) as error:
-        print(f"{arguments.summary}: cannot be read as a summary of kind {kind}: {error!r}",
-              file=sys.stderr)
-        sys.exit(2)
-    for path in drawn.save(arguments.out):
-        print(path)
+    def drawn(path):
+        try:
+            with open(path, encoding="utf-8") as file:
+                return page(json.load(file))
+        except (OSError, ValueError, KeyError) as error:
+            raise ValueError(f"cannot be read as a summary of kind {kind}: {error!r}") from error
+
+    command_line.draw("summary", f"summary.json of a run of kind {kind}", description, drawn)
