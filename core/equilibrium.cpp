@@ -14,8 +14,10 @@ namespace drape {
 namespace {
 
 constexpr double kArmijo = 1e-4;
+constexpr double kWolfe = 0.8;            // of the slope at the start, uphill at the end
 constexpr double kFirstBlend = 0.1;       // the smallest blend above zero
 constexpr double kRoundingSlack = 1e-13;  // energy differences below this share of |E| are noise
+constexpr double kLeastProgress = 1e-14;  // of |E|, over several steps: what rounding leaves of it
 constexpr double kShortestStep = 1e-9;    // of a line search, over the direction
 
 // When the preconditioner is refreshed: it costs as much as about fifteen iterations.
@@ -105,8 +107,8 @@ class Minimisation {
           return at_rounding_floor();
         }
         if (noisy_steps_ <= kNoisePatience) continue;
-        take_back_to_best();
       }
+      take_back_to_best();
       if (at_rounding_floor()) return true;
       if (stalled()) {
         result_.status = EquilibriumStatus::stagnated;
@@ -203,8 +205,9 @@ class Minimisation {
     return d.reshaped(3, d.size() / 3).colwise().norm().maxCoeff();
   }
 
-  /// Armijo backtracking on the energy; where energy differences drown in rounding, a step counts
-  /// unless it doubles the residual, and the best state is kept.
+  /// Armijo backtracking on the energy; where energy differences drown in rounding, on the mean of
+  /// the slopes at both ends of the step (the approximate Wolfe condition of Hager and Zhang, SIAM
+  /// J. Optim. 16, 2005).
   bool line_search(const VecX& d) {
     const double slope = free_gradient_.dot(d);
     if (!(slope < 0)) return false;
@@ -220,7 +223,7 @@ class Minimisation {
         continue;
       }
       const bool below_noise = -step * slope < noise;
-      if (below_noise ? residual < 2 * result_.residual
+      if (below_noise ? discretization_.to_free(trial_gradient_).dot(d) <= -kWolfe * slope
                       : energy <= result_.energy + kArmijo * step * slope) {
         hard_searches_ += backtracks >= 2;
         memory_.push(step * d, discretization_.to_free(trial_gradient_) - free_gradient_);
@@ -249,9 +252,16 @@ class Minimisation {
     }
   }
 
+  /// To the state with the smallest residual, unless it is above its floor and this one has less
+  /// energy: in a curved valley that is nearly flat the residual grows before it falls.
   void take_back_to_best() {
     if (best_residual_ >= result_.residual) return;
+    const VecX x = result_.x;
+    const double energy = result_.energy;
     result_.x = best_x_;
+    evaluate();
+    if (energy >= result_.energy || at_rounding_floor()) return;
+    result_.x = x;
     evaluate();
   }
 
@@ -259,8 +269,9 @@ class Minimisation {
   /// last refreshes has lowered energy or residual.
   bool stalled() {
     if (use_ == 0 && blend_ >= 1) return true;
-    const bool better = result_.residual < 0.5 * residual_at_stall_ ||
-                        result_.energy < energy_at_stall_ - 1e-9 * std::abs(result_.energy);
+    const bool better =
+        result_.residual < 0.5 * residual_at_stall_ ||
+        result_.energy < energy_at_stall_ - kLeastProgress * std::abs(result_.energy);
     stalls_ = better ? 0 : stalls_ + 1;
     residual_at_stall_ = result_.residual;
     energy_at_stall_ = result_.energy;
