@@ -83,7 +83,7 @@ class Importer {
       const size_t at = place(name);
       return at < cells.size() ? std::string(cells[at]) : std::string();
     };
-    ImportedFabric imported;
+    TaggedFabric imported;
     Tag& tag = imported.tag;
     tag.id = text("id");
     tag.category = text("category");
@@ -107,7 +107,7 @@ class Importer {
     fabrics.push_back(std::move(imported));
   }
 
-  std::vector<ImportedFabric> fabrics;
+  std::vector<TaggedFabric> fabrics;
 
  private:
   /// names_.size() if there is none.
@@ -130,7 +130,7 @@ class Importer {
 
 }  // namespace
 
-std::vector<ImportedFabric> read_fabric_table(const std::filesystem::path& file) {
+std::vector<TaggedFabric> read_fabric_table(const std::filesystem::path& file) {
   Importer importer;
   read_csv(
       file, expected_header(), [&](std::string_view line) { importer.header(line); },

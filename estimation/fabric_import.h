@@ -19,14 +19,10 @@
 
 namespace drape {
 
-struct ImportedFabric {
-  Tag tag;  ///< texts are empty where the table has none
-  Fabric fabric;
-};
-
-/// Throws std::invalid_argument beginning with FILE:LINE that says what is wrong and what is right:
-/// missing and unknown columns, values outside of the software's ranges (mostly a matter of units),
-/// categories and compositions as in a table of tags, an id that occurs twice.
-std::vector<ImportedFabric> read_fabric_table(const std::filesystem::path& file);
+/// Texts of a tag are empty where the table has none. Throws std::invalid_argument beginning with
+/// FILE:LINE that says what is wrong and what is right: missing and unknown columns, values outside
+/// of the software's ranges (mostly a matter of units), categories and compositions as in a table
+/// of tags, an id that occurs twice.
+std::vector<TaggedFabric> read_fabric_table(const std::filesystem::path& file);
 
 }  // namespace drape

@@ -58,7 +58,7 @@ double shear_sd(Structure structure) {
 double sd_from_weight(Parameter p, Structure structure) {
   switch (p) {
     case Parameter::areal_density:
-      return 0.02;  // Assumed: of a weighing.
+      return kWeighingSd;
     case Parameter::k_u:
     case Parameter::k_v:
       return stretch_range(structure).sd;

@@ -14,6 +14,9 @@ struct Prior {
   MatX covariance;
 };
 
+/// Of ln of the areal density where a fabric was weighed. Assumed.
+inline constexpr double kWeighingSd = 0.02;
+
 /// Throws std::invalid_argument unless the sizes are those of z and the covariance is symmetric and
 /// positive definite.
 void validate(const Prior& prior, int size);

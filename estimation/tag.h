@@ -26,6 +26,11 @@ struct Tag {
   double areal_density = 0;  ///< [kg/m^2]
 };
 
+struct TaggedFabric {
+  Tag tag;
+  Fabric fabric;
+};
+
 /// How the cloth is made, as far as first_parameters needs it.
 enum class Structure { woven, knit, other };
 

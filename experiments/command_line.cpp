@@ -219,6 +219,9 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   tag->add_option("--density", line.tag.density, "Mass per area, kg/m^2")
       ->type_name("D")
       ->required();
+  tag->add_option("--dataset", line.tag.dataset,
+                  "A results.h5 of fabrics with tags to learn from; without it the tag model")
+      ->type_name("FILE");
 
   try {
     app.parse(argc, argv);

@@ -15,7 +15,8 @@ enum class Command { run, validate, explain, info, estimate, dataset, tag };
 /// What `tag` is asked about.
 struct TagQuery {
   std::string type, composition;
-  double density = 0;  ///< [kg/m^2]
+  double density = 0;             ///< [kg/m^2]
+  std::filesystem::path dataset;  ///< to learn from; empty: the tag model
 };
 
 struct CommandLine {

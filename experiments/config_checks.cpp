@@ -97,6 +97,10 @@ void check_fit(const Settings& settings, const Refuse& refuse) {
              "dataset.protocols cannot hold \"guided\", which follows one outline");
   if (settings.photograph.prior == PriorKind::tag)
     refuse("photograph.prior", "photograph.prior cannot be \"tag\": a photograph has none");
+  if (!settings.estimate.tag_dataset.empty() && settings.estimate.prior != PriorKind::tag &&
+      settings.estimate.first != FirstParameters::tag)
+    refuse("estimate.tag_dataset",
+           "estimate.tag_dataset is only for estimate.prior or estimate.first = \"tag\"");
   if (kind == Kind::paper && settings.paper.configs.empty())
     refuse("experiment.kind", "a paper needs paper.configs, the experiments to collect");
   if (kind == Kind::quickstart && settings.quickstart.table.empty())

@@ -114,6 +114,10 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("estimate", "prior_log_sd", "", kPositive,
       "prior = \"start\": standard deviation of each log parameter about its start.",
       DRAPE_MEMBER(estimate.prior_log_sd));
+  add("estimate", "tag_dataset", "", kAny,
+      "first or prior = \"tag\": what a tag tells is a regression on the fabrics of this "
+      "results.h5, which should be others than those estimated; \"\" for the tag model.",
+      DRAPE_MEMBER(estimate.tag_dataset));
   add("estimate", "start", "", kAny,
       "First drape of a fit: \"guided\" by the observed outline, or, where the target's "
       "equilibrium "
@@ -189,12 +193,10 @@ void add_keys_of_kinds(ConfigKeyList& add) {
       "Lobes of the folded starts that predict drapes without a picture.",
       DRAPE_MEMBER(photographs.lobes));
 
-  add("tag_comparison", "training", "", at_least(10),
-      "Number of fabrics that the learned regressor is shown.",
-      DRAPE_MEMBER(tag_comparison.training));
+  add("tag_comparison", "training", "", at_least(20),
+      "Number of fabrics that the regressions learn from.", DRAPE_MEMBER(tag_comparison.training));
   add("tag_comparison", "held_out", "", at_least(1),
-      "Number of other fabrics that tag, picture, both and the regressor are compared on.",
-      DRAPE_MEMBER(tag_comparison.held_out));
+      "Number of other fabrics that all are compared on.", DRAPE_MEMBER(tag_comparison.held_out));
 
   add("identifiability", "fabrics", "", at_least(1),
       "Number of random fabrics of the measured distribution.",

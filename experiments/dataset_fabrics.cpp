@@ -17,7 +17,7 @@ namespace {
 std::vector<Record> listed_fabrics(const DatasetSettings& dataset) {
   std::vector<Record> records;
   if (!dataset.parameters.empty()) {
-    for (const ImportedFabric& imported : read_fabric_table(dataset.parameters))
+    for (const TaggedFabric& imported : read_fabric_table(dataset.parameters))
       records.push_back(tagged(imported.tag, imported.fabric));
   } else if (!dataset.table.empty()) {
     for (const Tag& tag : read_tag_table(dataset.table))
@@ -39,6 +39,16 @@ Record tagged(const Tag& tag, const Fabric& fabric) {
   record.composition = composition_text(tag.composition);
   record.fabric = fabric;
   return record;
+}
+
+Tag tag_of(const Record& record) {
+  return {
+      record.id,
+      record.category,
+      record.subcategory,
+      record.type,
+      record.composition.empty() ? std::vector<Fibre>{} : composition_from_text(record.composition),
+      record.fabric.areal_density};
 }
 
 void copy_tag(const Record& from, Record& to) {

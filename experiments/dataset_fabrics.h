@@ -12,6 +12,8 @@ namespace drape {
 
 /// The record of a fabric with its tag, no drape yet.
 Record tagged(const Tag& tag, const Fabric& fabric);
+/// The other way round. Throws like composition_from_text; a composition may be missing.
+Tag tag_of(const Record& record);
 /// Name and tag of one record become those of another.
 void copy_tag(const Record& from, Record& to);
 

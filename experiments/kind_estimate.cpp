@@ -71,13 +71,15 @@ Targets random_targets(const Settings& settings) {
   return targets;
 }
 
-Record finished(const Settings& settings, const Targets& targets, Record record, int index) {
+Record finished(const Settings& settings, const Targets& targets, const TagPrior& tag_prior,
+                Record record, int index) {
   if (record.positions.size() == 0) record = (*targets.random)[index];
   const Potential model(targets.discretization, record.fabric, targets.header.reading,
                         targets.header.scene.gravity);
   const std::uint64_t seed =
       seed_of_item(settings.experiment.seed, static_cast<std::uint64_t>(index));
-  if (converged(record)) record.estimate = recover(settings, model, record, targets.header, seed);
+  if (converged(record))
+    record.estimate = recover(settings, model, record, targets.header, tag_prior, seed);
   return record;
 }
 
@@ -100,6 +102,7 @@ Record failed_estimate(const Record& target, const std::string& reason) {
 RunOutcome run_estimate(const Settings& settings, OutputFolder& folder) {
   const Targets targets =
       settings.estimate.dataset.empty() ? random_targets(settings) : read_targets(settings);
+  const TagPrior tag_says = tag_prior(settings.estimate, targets.header.reading.threshold);
   const int count = static_cast<int>(targets.records.size());
   const RecordStore store(folder.path(), targets.header, count);
   {
@@ -109,7 +112,7 @@ RunOutcome run_estimate(const Settings& settings, OutputFolder& folder) {
       const Record& target = targets.records[static_cast<size_t>(i)];
       Record record;
       try {
-        record = finished(settings, targets, target, i);
+        record = finished(settings, targets, tag_says, target, i);
       } catch (const std::exception& error) {
         record = target.positions.size() == 0
                      ? failed_record(settings, targets.discretization->mesh(), target.fabric,

@@ -1,20 +1,48 @@
 // kind = "tag_comparison": what the tag, the picture and both tell of a fabric's parameters, beside
-// a regressor that learned from other fabrics (the source's own route).
+// regressions on other fabrics: on the tag, and on tag and picture (the source's own route).
 //
 // All fabrics are of the tag model. What every method is told besides: the weight.
-//   tag       the mean of the tag model given the tag
-//   picture   a fit without the tag, from what the weight suggests for a woven
-//   both      a fit with the tag's mean and covariance as prior
-//   learned   scikit-learn's, from tag and outline (figures/tag_comparison.py)
+//   tag         the mean of the tag model given the tag
+//   regression  from the tag alone, on the training fabrics (TagRegression)
+//   picture     a fit without the tag, from what the weight suggests for a woven
+//   both        a fit with the tag model's mean and covariance as prior
+//   learned     scikit-learn's, from tag and outline (figures/tag_comparison.py)
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "core/durable_file.h"
+#include "core/records.h"
+#include "experiments/dataset_fabrics.h"
 #include "experiments/figure.h"
 #include "experiments/interrupt.h"
 #include "experiments/run_part.h"
+#include "experiments/tag_dataset.h"
 
 namespace drape {
+namespace {
+
+/// Mean and standard deviation of z of the held-out fabrics, as the figure reads them.
+nlohmann::ordered_json regression_of(const std::filesystem::path& training,
+                                     const std::filesystem::path& held_out,
+                                     const std::vector<Parameter>& parameters) {
+  const TagRegression regression = tag_regression(training);
+  nlohmann::ordered_json said{{"fabrics", regression.fabrics()}};
+  for (const Parameter p : parameters)
+    said["r_squared"][std::string(name(p))] = regression.validation(p).r_squared;
+  visit_records(held_out, [&](size_t, const Record& record) {
+    const Prior prior = regression.predict(parameters, tag_of(record));
+    for (size_t i = 0; i < parameters.size(); ++i) {
+      const std::string key(name(parameters[i]));
+      const auto k = static_cast<Eigen::Index>(i);
+      said["mean"][key].push_back(prior.mean[k]);
+      said["sd"][key].push_back(std::sqrt(prior.covariance(k, k)));
+    }
+  });
+  return said;
+}
+
+}  // namespace
 
 RunOutcome run_tag_comparison(const Settings& settings, OutputFolder& folder) {
   RunOutcome outcome{"ok", {}};
@@ -22,6 +50,7 @@ RunOutcome run_tag_comparison(const Settings& settings, OutputFolder& folder) {
 
   Settings training = settings;
   training.dataset.tags = DatasetTags::model;
+  training.estimate.tag_dataset.clear();
   training.dataset.fabrics = settings.tag_comparison.training;
   parts["training"] = run_part("training", drape_dataset, Kind::dataset, training, folder);
   if (interrupted()) return outcome;
@@ -31,6 +60,10 @@ RunOutcome run_tag_comparison(const Settings& settings, OutputFolder& folder) {
   held_out.dataset.fabrics = settings.tag_comparison.held_out;
   parts["held_out"] = run_part("held_out", drape_dataset, Kind::dataset, held_out, folder);
   if (interrupted()) return outcome;
+  write_text_durably(folder / "tag_regression.json",
+                     regression_of(folder / "training/results.h5", folder / "held_out/results.h5",
+                                   settings.estimate.parameters)
+                         .dump(2));
 
   Settings picture = held_out;
   picture.estimate.dataset = std::filesystem::absolute(folder / "held_out/results.h5");

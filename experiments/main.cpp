@@ -21,6 +21,7 @@
 #include "experiments/run_kind.h"
 #include "experiments/start_outline.h"
 #include "experiments/summary.h"
+#include "experiments/tag_dataset.h"
 #include "experiments/tag_report.h"
 
 namespace drape {
@@ -37,9 +38,18 @@ void print_content(const OutputFolder& folder) {
   for (const std::filesystem::path& path : visible) std::cout << "  " << path.string() << "\n";
 }
 
+/// Reads a table in a child process first.
+void probe_records(const std::filesystem::path& file) {
+  probe(file.string(), [&file] { visit_records(file, [](size_t, const Record&) {}); });
+}
+
 /// Reads the input files of a run before anything is written: throws what the run itself would.
 void check_inputs(const Settings& settings) {
   const Kind kind = settings.experiment.kind;
+  if (kind == Kind::estimate && !settings.estimate.tag_dataset.empty()) {
+    probe_records(settings.estimate.tag_dataset);
+    tag_regression(settings.estimate.tag_dataset);
+  }
   if (settings.start.protocol == StartProtocol::guided) start_profile(settings);
   if (kind == Kind::photograph) {
     for (size_t i = 0; i < settings.photograph.files.size(); ++i)
@@ -49,7 +59,7 @@ void check_inputs(const Settings& settings) {
     paper_parts(settings);
   } else if (kind == Kind::estimate && !settings.estimate.dataset.empty()) {
     const std::filesystem::path& file = settings.estimate.dataset;
-    probe(file.string(), [&file] { visit_records(file, [](size_t, const Record&) {}); });
+    probe_records(file);
     read_header(file);
   } else if (kind == Kind::dataset &&
              !(settings.dataset.table.empty() && settings.dataset.parameters.empty())) {
@@ -111,10 +121,17 @@ int execute(const CommandLine& line) {
       });
     case Command::dataset:
       return run_dataset_command(line.dataset);
-    case Command::tag:
-      std::cout << tag_report(line.tag.type, line.tag.composition, line.tag.density,
-                              BendingThreshold::radius);
-      return kDone;
+    case Command::tag: {
+      const Tag tag = tag_from_words(line.tag.type, line.tag.composition, line.tag.density);
+      if (line.tag.dataset.empty()) {
+        std::cout << tag_report(tag, BendingThreshold::radius);
+        return kDone;
+      }
+      return isolated(line.tag.dataset.string(), [&] {
+        std::cout << tag_report(tag, line.tag.dataset);
+        return kDone;
+      });
+    }
   }
   throw std::logic_error("a command without a function");
 }

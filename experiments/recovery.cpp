@@ -8,7 +8,7 @@
 #include "core/profile.h"
 #include "core/random.h"
 #include "estimation/bending_rigidity.h"
-#include "estimation/tag_model.h"
+#include "experiments/dataset_fabrics.h"
 #include "experiments/model.h"
 
 namespace drape {
@@ -18,19 +18,9 @@ constexpr double kSharedBranch = 1e-6;  // [m]
 constexpr double kBranchStep = 0.1;     // of a log parameter: small beside the snaps of a drape
 constexpr double kPi = 3.14159265358979323846;
 
-/// Throws std::invalid_argument if the record has no tag.
-Tag tag_of(const Record& record) {
-  return {record.id,
-          record.category,
-          record.subcategory,
-          record.type,
-          composition_from_text(record.composition),
-          record.fabric.areal_density};
-}
-
 /// The first parameters of a fit and the weight as the record has it.
 Fabric first_fabric(const EstimateSettings& settings, const Record& record,
-                    BendingThreshold threshold, std::uint64_t seed) {
+                    const TagPrior& tag_prior, std::uint64_t seed) {
   switch (settings.first) {
     case FirstParameters::perturbed:
       return perturbed(record.fabric, settings, seed);
@@ -39,8 +29,7 @@ Fabric first_fabric(const EstimateSettings& settings, const Record& record,
     case FirstParameters::tag: {
       const std::vector<Parameter> all(all_parameters().begin(), all_parameters().end());
       const Tag tag = tag_of(record);
-      Fabric fabric =
-          ParameterSpace{all, record.fabric}.decode(prior_from_tag(all, tag, threshold).mean);
+      Fabric fabric = ParameterSpace{all, record.fabric}.decode(tag_prior(all, tag).mean);
       fabric.areal_density = tag.areal_density;  // but for rounding
       return fabric;
     }
@@ -142,7 +131,7 @@ std::optional<Prior> fit_prior(const Settings& settings, PriorKind kind, Structu
 }
 
 EstimateRecord recover(const Settings& settings, const Potential& model, const Record& record,
-                       const RecordsHeader& header, std::uint64_t seed) {
+                       const RecordsHeader& header, const TagPrior& tag_prior, std::uint64_t seed) {
   EstimateOptions options = estimate_options(settings);
   OutlineObservation observation;
   observation.noise = settings.estimate.outline_noise;
@@ -156,12 +145,11 @@ EstimateRecord recover(const Settings& settings, const Potential& model, const R
   if (options.misfit.loss == OutlineLoss::signed_distance)
     observation.outline = contour(observation.coverage, observation.grid);
 
-  const Fabric start =
-      first_fabric(settings.estimate, record, header.reading.threshold, seed_of_item(seed, 2));
+  const Fabric start = first_fabric(settings.estimate, record, tag_prior, seed_of_item(seed, 2));
   const Structure structure =
       record.category.empty() ? Structure::woven : structure_from_category(record.category);
   options.prior = settings.estimate.prior == PriorKind::tag
-                      ? prior_from_tag(options.parameters, tag_of(record), header.reading.threshold)
+                      ? tag_prior(options.parameters, tag_of(record))
                       : fit_prior(settings, settings.estimate.prior, structure, start);
   const Potential target = as_draped(model, record, header.scene);
   const BranchTest branch = settings.estimate.start == EstimateStart::continued

@@ -7,6 +7,7 @@
 #include "core/potential.h"
 #include "core/records.h"
 #include "experiments/settings.h"
+#include "experiments/tag_dataset.h"
 
 namespace drape {
 
@@ -21,7 +22,7 @@ VecX with_noise(const VecX& profile, double sd, int harmonic_count, std::uint64_
 EstimateOptions estimate_options(const Settings& settings);
 
 /// The prior of the estimated parameters; none for PriorKind::none. Not for PriorKind::tag, which
-/// takes a tag (prior_from_tag).
+/// takes a tag (tag_prior).
 std::optional<Prior> fit_prior(const Settings& settings, PriorKind kind, Structure structure,
                                const Fabric& start);
 
@@ -38,11 +39,11 @@ BranchTest follow_target(Potential potential, const Record& record, const Fabric
                          const EstimateOptions& options);
 
 /// Estimates the parameters of a record from its profile (or coverage). `model` gives mesh, reading
-/// and gravity. Only start = "continued" uses the record's own equilibrium: where target and start
-/// share a branch (continuing target -> start -> target comes back within 1e-6 m) the fit begins
-/// on it.
+/// and gravity; `tag_prior` is asked where the settings say "tag". Only start = "continued" uses
+/// the record's own equilibrium: where target and start share a branch (continuing target -> start
+/// -> target comes back within 1e-6 m) the fit begins on it.
 EstimateRecord recover(const Settings& settings, const Potential& model, const Record& record,
-                       const RecordsHeader& header, std::uint64_t seed);
+                       const RecordsHeader& header, const TagPrior& tag_prior, std::uint64_t seed);
 
 /// What is seen of an estimate in one of its pictures and how it went, as a record keeps it.
 EstimateRecord estimate_record(const Picture& picture, const PictureEstimate& drape,

@@ -144,7 +144,8 @@ struct EstimateSettings {
   bool add_noise = false;
   double huber = 0;  ///< in standard deviations; 0: none
   PriorKind prior = PriorKind::none;
-  double prior_log_sd = 1;  ///< of PriorKind::start
+  double prior_log_sd = 1;            ///< of PriorKind::start
+  std::filesystem::path tag_dataset;  ///< what tags tell is fitted on it; empty: the tag model
   EstimateStart start = EstimateStart::guided;
   int guide_harmonics = 24;
   std::vector<double> guide{1, 0.1, 0.01};

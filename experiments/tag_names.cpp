@@ -138,4 +138,15 @@ std::vector<Fibre> composition_from_words(std::string_view text) {
   return fibres;
 }
 
+Tag in_known_words(Tag tag) {
+  if (!tag.type.empty()) {
+    const FabricType& type = type_from_text(tag.type);
+    tag.type = type.name;
+    tag.subcategory = type.subcategory;
+  }
+  if (!tag.composition.empty())
+    tag.composition = composition_from_words(composition_text(tag.composition));
+  return tag;
+}
+
 }  // namespace drape

@@ -20,4 +20,8 @@ const FibreKind& fibre_from_text(std::string_view text);
 /// separate as well.
 std::vector<Fibre> composition_from_words(std::string_view text);
 
+/// Type and fibres by their names of Tables 1 and 2, and the subcategory of the type; what is empty
+/// stays so. Throws likewise.
+Tag in_known_words(Tag tag);
+
 }  // namespace drape

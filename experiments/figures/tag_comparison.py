@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""What the tag, the picture of one drape and both tell of each parameter, beside a regressor that
-learned from other fabrics, over fabrics that none of them has seen.
+"""What the tag, the picture of one drape and both tell of each parameter, beside regressions on
+other fabrics, over fabrics that none of them has seen.
 
     /usr/bin/python3 tag_comparison.py DIR/results.h5 --out DIR/tag_comparison
 
 DIR is the folder of a run of kind tag_comparison. Writes .png, .pdf and the numbers as .json. The
-regressor is scikit-learn's (package python3-sklearn); without it the others are compared.
+regression on tag and picture is scikit-learn's (package python3-sklearn); without it the others are
+compared.
 """
 
 import argparse
@@ -26,6 +27,7 @@ except ImportError:
 
 METHODS = {  # label -> colour
     "tag": style.START,
+    "regression": "#CC79A7",
     "picture": "#7A7A7A",
     "both": style.ESTIMATE,
     "learned": "#009E73",
@@ -133,21 +135,27 @@ def compare(folder):
     common = with_both & with_picture
     if not common.any():
         raise ValueError("no fabric has an estimate from its picture")
+    regression = json.loads((folder / "tag_regression.json").read_text(encoding="utf-8"))
     said = {"tag": {name: np.log(both.estimates["params_start"][name]) for name in names},
+            "regression": {name: np.array(regression["mean"][name]) for name in names},
             "picture": {name: np.log(picture.estimates["params_estimated"][name])
                         for name in names},
             "both": {name: np.log(both.estimates["params_estimated"][name]) for name in names},
             "learned": learned(training, both, names)}
     errors = {name: {method: np.abs(values[name] - np.log(both.truth[name]))[common]
                      for method, values in said.items() if values} for name in names}
+    log_sd = {"regression": {name: np.array(regression["sd"][name]) for name in names},
+              "picture": picture.estimates["params_estimated_log_sd"],
+              "both": both.estimates["params_estimated_log_sd"]}
     inside = {name: {method: float(np.mean(
-        errors[name][method] <= INSIDE_90 *
-        table.estimates["params_estimated_log_sd"][name][common]))
-        for method, table in (("picture", picture), ("both", both))} for name in names}
+        errors[name][method] <= INSIDE_90 * sd[name][common])) for method, sd in log_sd.items()}
+        for name in names}
     return {"held_out": len(common), "compared": int(common.sum()),
             "without_estimate": {"picture": int((~with_picture).sum()),
                                  "both": int((~with_both).sum())},
             "training": int(training.converged.sum()), "learned": bool(said["learned"]),
+            "regression": {"fabrics": regression["fabrics"],
+                           "r_squared": {name: regression["r_squared"][name] for name in names}},
             "git_commit": both.git_commit,
             "log_errors": {name: {method: np.quantile(values, (0.25, 0.5, 0.75)).tolist()
                                   for method, values in of.items()}
@@ -158,7 +166,7 @@ def compare(folder):
 def page(numbers):
     names = list(numbers["log_errors"])
     methods = [method for method in METHODS if method in numbers["log_errors"][names[0]]]
-    row = 13
+    row = 15
     sheet = style.Page(150, 36 + row * len(names))
     sheet.text(6, 4, "What a tag and a picture tell", fontsize=11, weight="bold")
     sheet.text(6, 10.5, f"{numbers['compared']} fabrics that no method has seen; |ln(estimate / "
@@ -167,7 +175,7 @@ def page(numbers):
     for place, name in enumerate(names):
         for k, method in enumerate(methods):
             low, middle, high = numbers["log_errors"][name][method]
-            y = place + (k - (len(methods) - 1) / 2) * 0.19
+            y = place + (k - (len(methods) - 1) / 2) * 0.17
             axes.plot([low, high], [y, y], color=METHODS[method], linewidth=1.6)
             axes.plot(middle, y, "o", color=METHODS[method], markersize=4)
             axes.annotate(style.number(middle), (high, y), xytext=(3, 0),
@@ -181,13 +189,14 @@ def page(numbers):
     axes.set_xlabel("|ln error|  (0.1: 10 %, 0.7: a factor of 2)", fontsize=6.5)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
-    words = {"tag": "tag", "picture": "picture", "both": "tag and picture",
-             "learned": f"learned from {numbers['training']} fabrics"}
-    for k, method in enumerate(methods):
-        sheet.text(20 + 31 * k, 16, words[method], color=METHODS[method], weight="bold",
+    words = {"tag": "tag (model)", "regression": "tag (regression)", "picture": "picture",
+             "both": "tag and picture", "learned": f"learned from {numbers['training']} fabrics"}
+    places = dict(zip(METHODS, (20, 41, 67, 83, 108)))
+    for method in methods:
+        sheet.text(places[method], 16, words[method], color=METHODS[method], weight="bold",
                    fontsize=7)
     if not numbers["learned"]:
-        sheet.text(112, 16, "learned: no scikit-learn", fontsize=6)
+        sheet.text(places["learned"], 16, "learned: no scikit-learn", fontsize=6)
     sheet.text(6, sheet.height - 5, f"Drape, commit {numbers['git_commit'][:12]}", fontsize=6,
                color="#666666")
     return sheet

@@ -38,7 +38,7 @@ TEST_F(FabricImport, ConvertsToSi) {
       "fBuK,fBvK,fBhK,fBucklingStiffnessV\n"
       ".25,a 1,Twill,Woven,Linen 29; Polyester 71,168,100000,200000,10000,2000,3000,1500,.5\n"
       "0,b,,,,55,1000,1000,1000,.5,1,2,1\n");
-  const std::vector<ImportedFabric> fabrics = read_fabric_table(file_);
+  const std::vector<TaggedFabric> fabrics = read_fabric_table(file_);
   ASSERT_EQ(fabrics.size(), 2u);
   const auto& [tag, fabric] = fabrics[0];
   EXPECT_EQ(tag.id, "a 1");

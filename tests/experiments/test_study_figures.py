@@ -191,7 +191,7 @@ def identifiability_summary():
 
 
 def tag_comparison_numbers():
-    methods = ("tag", "picture", "both", "learned")
+    methods = ("tag", "regression", "picture", "both", "learned")
     return dict(held_out=40, compared=38, training=1000, learned=True, git_commit="0123456789ab",
                 log_errors={name: {m: [0.1 * k, 0.2 * k, 0.4 * k]
                                    for k, m in enumerate(methods, start=1)}
@@ -229,7 +229,8 @@ class Studies(FigureTest):
         numbers = tag_comparison_numbers()
         page = tag_comparison.page(numbers)
         self.check_layout(page)
-        self.assertIn("learned from 1000 fabrics", self.words(page))
+        for said in ("tag (model)", "tag (regression)", "learned from 1000 fabrics"):
+            self.assertIn(said, self.words(page))
         for of in numbers["log_errors"].values():
             del of["learned"]
         page = tag_comparison.page(numbers | {"learned": False})

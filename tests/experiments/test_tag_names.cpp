@@ -77,7 +77,8 @@ TEST(TagNames, OfCompositions) {
 
 TEST(TagReport, ShowsEveryParameterAndChecksTheDensity) {
   const auto report = [](double density) {
-    return tag_report("jerseys", "Cotton 59, Modal 41", density, BendingThreshold::radius);
+    return tag_report(tag_from_words("jerseys", "Cotton 59, Modal 41", density),
+                      BendingThreshold::radius);
   };
   const std::string usual = report(0.104);
   for (Parameter p : all_parameters())

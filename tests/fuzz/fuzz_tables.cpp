@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, size_t size) {
     }
   });
   reads_or_refuses([] {
-    for (const ImportedFabric& fabric : read_fabric_table(file.path())) validate(fabric.fabric);
+    for (const TaggedFabric& fabric : read_fabric_table(file.path())) validate(fabric.fabric);
   });
   return 0;
 }
