@@ -99,8 +99,10 @@ std::string tag_report(const Tag& tag, const std::filesystem::path& results) {
     const auto i = static_cast<int>(p);
     const TagRegression::Validation& validation = regression.validation(p);
     const bool learned = p != Parameter::areal_density && validation.varies;
+    // adding 0 makes a rounded -0 a 0
     report += row(p, range_of(p, prior.mean[i], std::sqrt(prior.covariance(i, i))),
-                  learned ? formatted("%8.2f", validation.r_squared) : formatted("%8s", "-"));
+                  learned ? formatted("%8.2f", std::round(100 * validation.r_squared) / 100 + 0.)
+                          : formatted("%8s", "-"));
   }
   report +=
       "\nNine of ten fabrics with such a tag should lie between 5 and 95 %, by a regression "

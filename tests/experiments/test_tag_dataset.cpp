@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
+#include <cstdio>
 
 #include "estimation/random_tags.h"
 #include "estimation/tag_model.h"
 #include "experiments/dataset_fabrics.h"
+#include "experiments/tag_names.h"
 #include "experiments/tag_report.h"
 #include "tests/experiments/program_fixture.h"
 #include "tests/support/made_up_records.h"
