@@ -222,7 +222,7 @@ TEST(TagRegression, IsNearlyAsGoodAsTheModelItLearnsFrom) {
                                        Parameter::k_bu, Parameter::k_bv, Parameter::k_bh};
   const TagRegression regression(model_fabrics(1000, 1));
   VecX of_regression = VecX::Zero(6), of_model = VecX::Zero(6);
-  for (const TaggedFabric& other : model_fabrics(18, 2)) {
+  for (const TaggedFabric& other : model_fabrics(12, 2)) {
     const VecX truth = ParameterSpace{learned, {}}.encode(other.fabric);
     of_regression += (regression.predict(learned, other.tag).mean - truth).cwiseAbs2();
     of_model +=
