@@ -131,7 +131,7 @@ std::string list_text(const std::vector<std::string>& entries) {
 std::optional<CommandLine> parse_command_line(int argc, const char* const* argv) {
   CommandLine line;
   std::string file, out, threads, query, mm_per_pixel, density, warp_angle, camera_height, dataset,
-      shard;
+      type, composition, manifest, shard;
   std::vector<std::string> sets, records, photos, radii;
 
   CLI::App app("Drape: fabric parameters in, drapes out; silhouettes in, fabric parameters out.",
@@ -198,10 +198,27 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
                    "Height of the camera over the support; without it the view is orthographic")
       ->type_name("MM")
       ->needs(photo_option);
+  CLI::Option* type_option =
+      estimate
+          ->add_option("--type", type, "Type of the fabric on its tag, as Jersey; the prior is its")
+          ->type_name("NAME")
+          ->needs(photo_option);
+  CLI::Option* composition_option =
+      estimate->add_option("--composition", composition, "As \"Cotton 59, Modal 41\"")
+          ->type_name("FIBRES")
+          ->needs(type_option);
+  type_option->needs(composition_option);
+  CLI::Option* manifest_option =
+      estimate
+          ->add_option("--manifest", manifest,
+                       "A table of photographs of many fabrics; see explain")
+          ->type_name("FILE")
+          ->excludes(photo_option);
   CLI::Option* dataset_option =
       estimate->add_option("--dataset", dataset, "A results.h5 with observations")
           ->type_name("FILE")
-          ->excludes(photo_option);
+          ->excludes(photo_option)
+          ->excludes(manifest_option);
   estimate->add_option("--records", records, "Indices of its records, as 0,3,4; all without")
       ->type_name("I")
       ->delimiter(',')
@@ -243,8 +260,11 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   if (!file.empty()) line.file = file;
   line.out = out;
   line.query = query;
-  if (line.command == Command::estimate && file.empty() && photos.empty() && dataset.empty())
-    throw UsageError("estimate needs --photo FILE, --dataset FILE or a CONFIG\nMore with --help.");
+  if (line.command == Command::estimate && file.empty() && photos.empty() && manifest.empty() &&
+      dataset.empty())
+    throw UsageError(
+        "estimate needs --photo FILE, --manifest FILE, --dataset FILE or a CONFIG\n"
+        "More with --help.");
 
   // The values go through the same checks as those of a file. What --set says comes last.
   const auto assign = [&](const char* key, const std::string& value, const std::string& origin) {
@@ -253,6 +273,15 @@ std::optional<CommandLine> parse_command_line(int argc, const char* const* argv)
   if (!photos.empty()) {
     assign("experiment.kind", "photograph", "--photo");
     line.assignments.push_back({"photograph.files", format_value(photos), "--photo"});
+  }
+  if (!manifest.empty()) {
+    assign("experiment.kind", "photograph_set", "--manifest");
+    assign("photograph_set.manifest", manifest, "--manifest");
+  }
+  if (!type.empty()) {
+    assign("photograph.prior", "tag", "--type");
+    assign("photograph.type", type, "--type");
+    assign("photograph.composition", composition, "--composition");
   }
   if (!dataset.empty()) assign("experiment.kind", "estimate", "--dataset");
   assign("photograph.mm_per_pixel", mm_per_pixel, "--mm-per-pixel");

@@ -105,16 +105,27 @@ std::string choice(const ConfigKey& key, const toml::node& node) {
   return *value;
 }
 
-std::string path(const ConfigKey& key, const toml::node& node,
-                 const std::filesystem::path& folder) {
+std::string text(const ConfigKey& key, const toml::node& node) {
   const auto value = node.value_exact<std::string>();
   if (!value) refuse_type(key, node);
   if (value->find('\0') != std::string::npos) refuse_value(key, node, *value);
-  if (value->empty()) return {};
-  return std::filesystem::absolute(folder / *value).lexically_normal().string();
+  return *value;
 }
 
-// Distinct entries; at least one, unless the key's default is the empty list.
+std::string path(const ConfigKey& key, const toml::node& node,
+                 const std::filesystem::path& folder) {
+  const std::string value = text(key, node);
+  if (value.empty()) return {};
+  return std::filesystem::absolute(folder / value).lexically_normal().string();
+}
+
+// Lists with an entry for each of another list: these may repeat.
+bool has_entry_for_each(const ConfigKey& key) {
+  return key.full_name() == "photograph.specimen_radius_mm" ||
+         key.full_name() == "photographs.densities";
+}
+
+// Distinct entries, as a rule; at least one, unless the key's default is the empty list.
 template <class EntryOf,
           class Entry = std::invoke_result_t<EntryOf, const ConfigKey&, const toml::node&>>
 std::vector<Entry> list(const ConfigKey& key, const toml::node& node, const EntryOf& entry_of) {
@@ -124,7 +135,7 @@ std::vector<Entry> list(const ConfigKey& key, const toml::node& node, const Entr
   std::set<Entry> seen;
   for (const toml::node& element : *array) {
     entries.push_back(entry_of(key, element));
-    if (!seen.insert(entries.back()).second)
+    if (!seen.insert(entries.back()).second && !has_entry_for_each(key))
       throw Fault{element.source().begin,
                   key.full_name() + " has " + format_value(entries.back()) + " twice"};
   }
@@ -148,6 +159,8 @@ ConfigValue value_of(const ConfigKey& key, const toml::node& node,
       return number(key, node);
     case ValueType::choice:
       return choice(key, node);
+    case ValueType::text:
+      return text(key, node);
     case ValueType::path:
       return path(key, node, folder);
     case ValueType::integers:
@@ -245,7 +258,8 @@ void assign(Loaded& loaded, const Assignment& assignment) {
   if (!key) refuse(unknown_key_message(section, key_name));
 
   const std::string& value = assignment.value;
-  const bool is_text = key->type == ValueType::choice || key->type == ValueType::path ||
+  const bool is_text = key->type == ValueType::choice || key->type == ValueType::text ||
+                       key->type == ValueType::path ||
                        (key->type == ValueType::integer_or_auto && value == kAuto);
   const bool quoted = !value.empty() && (value.front() == '"' || value.front() == '\'');
   std::string text = is_text && !quoted ? format_value(value) : value;

@@ -69,6 +69,8 @@ void check_fit(const Settings& settings, const Refuse& refuse) {
       refuse("photograph.areal_density", "a photograph needs photograph.areal_density > 0 kg/m^2");
     check_photograph(settings, refuse);
   }
+  if (kind == Kind::photograph_set && settings.photograph_set.manifest.empty())
+    refuse("experiment.kind", "a set of photographs needs photograph_set.manifest");
   if (kind == Kind::photographs) {
     if (settings.photographs.folder.empty())
       refuse("experiment.kind", "photographs need photographs.folder");
@@ -95,12 +97,18 @@ void check_fit(const Settings& settings, const Refuse& refuse) {
     if (protocol == StartProtocol::guided)
       refuse("dataset.protocols",
              "dataset.protocols cannot hold \"guided\", which follows one outline");
-  if (settings.photograph.prior == PriorKind::tag)
-    refuse("photograph.prior", "photograph.prior cannot be \"tag\": a photograph has none");
-  if (!settings.estimate.tag_dataset.empty() && settings.estimate.prior != PriorKind::tag &&
-      settings.estimate.first != FirstParameters::tag)
+  if (settings.photograph.type.empty() != settings.photograph.composition.empty())
+    refuse("photograph.type", "a tag has photograph.type and photograph.composition; give both");
+  if (settings.photograph.prior == PriorKind::tag && settings.photograph.type.empty())
+    refuse("photograph.prior",
+           "photograph.prior = \"tag\" needs photograph.type and photograph.composition");
+  const bool of_tags = settings.estimate.prior == PriorKind::tag ||
+                       settings.estimate.first == FirstParameters::tag ||
+                       settings.photograph.prior == PriorKind::tag || kind == Kind::photograph_set;
+  if (!settings.estimate.tag_dataset.empty() && !of_tags)
     refuse("estimate.tag_dataset",
-           "estimate.tag_dataset is only for estimate.prior or estimate.first = \"tag\"");
+           "estimate.tag_dataset is only for estimate.prior, estimate.first or photograph.prior = "
+           "\"tag\"");
   if (kind == Kind::paper && settings.paper.configs.empty())
     refuse("experiment.kind", "a paper needs paper.configs, the experiments to collect");
   if (kind == Kind::quickstart && settings.quickstart.table.empty())

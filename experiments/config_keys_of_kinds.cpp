@@ -145,6 +145,12 @@ void add_keys_of_kinds(ConfigKeyList& add) {
       DRAPE_MEMBER(photograph.areal_density));
   add("photograph", "structure", "", kAny, "How the cloth is made, for the first parameters.",
       DRAPE_MEMBER(photograph.structure));
+  add("photograph", "type", "", kAny,
+      "Type of the fabric as its tag says it, as Jersey, for photograph.prior = \"tag\"; "
+      "\"\" for none. It says how the cloth is made, too.",
+      DRAPE_MEMBER(photograph.type));
+  add("photograph", "composition", "", kAny, "Its fibres likewise, as \"Cotton 59, Modal 41\".",
+      DRAPE_MEMBER(photograph.composition));
   add("photograph", "outline_noise", "m", kPositive,
       "Standard deviation of an observed radius, model error included.",
       DRAPE_MEMBER(photograph.outline_noise));
@@ -168,6 +174,12 @@ void add_keys_of_kinds(ConfigKeyList& add) {
       "Height of a pinhole camera over the middle of the support, where mm_per_pixel holds; 0 for "
       "an orthographic view. Drape coefficients of photographs stay as seen.",
       DRAPE_MEMBER(photograph.camera_height_mm));
+
+  add("photograph_set", "manifest", "", kAny,
+      "CSV of photographs: columns id, file, mm_per_pixel, areal_density_gsm, and if known "
+      "specimen_radius_mm, warp_angle_deg, type, composition_percent. Lines of one id are pictures "
+      "of one fabric; with a type the prior is its tag's. All else is as in [photograph].",
+      DRAPE_MEMBER(photograph_set.manifest));
 
   add("photographs", "folder", "", kAny,
       "Folder with fabric_NN/specimen_SS_capture_C.jpg; skipped, saying so, where it is missing. "

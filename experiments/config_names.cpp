@@ -11,6 +11,7 @@ std::vector<std::string> names_of<Kind>() {
           "dataset",
           "estimate",
           "photograph",
+          "photograph_set",
           "gradient_check",
           "robustness",
           "quickstart",

@@ -166,6 +166,8 @@ std::string allowed_text(const ConfigKey& key) {
       return "a finite number" + range;
     case ValueType::choice:
       return (quoted.size() > 1 ? "one of " : "") + join(quoted);
+    case ValueType::text:
+      return "a text";
     case ValueType::path:
       return "the path of a file, relative to the config's folder";
     case ValueType::integers:

@@ -20,6 +20,7 @@ enum class ValueType {
   integer_or_auto,
   number,
   choice,
+  text,
   path,
   integers,
   numbers,
@@ -97,6 +98,13 @@ struct Conversion<Enum, std::enable_if_t<std::is_enum_v<Enum>>> {
   static Enum from_value(const ConfigValue& value) {
     return from_name<Enum>(std::get<std::string>(value));
   }
+};
+
+template <>
+struct Conversion<std::string> {
+  static constexpr ValueType kType = ValueType::text;
+  static ConfigValue to_value(const std::string& member) { return member; }
+  static std::string from_value(const ConfigValue& value) { return std::get<std::string>(value); }
 };
 
 template <>

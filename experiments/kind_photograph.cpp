@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "estimation/tag.h"
+#include "experiments/dataset_fabrics.h"
 #include "experiments/figure.h"
 #include "experiments/kinds.h"
 #include "experiments/model.h"
@@ -13,6 +14,7 @@
 #include "experiments/record_store.h"
 #include "experiments/recovery.h"
 #include "experiments/statistics.h"
+#include "experiments/tag_dataset.h"
 
 namespace drape {
 namespace {
@@ -114,7 +116,9 @@ std::filesystem::path folder_of(const OutputFolder& folder, double radius, bool 
 
 RunOutcome run_photograph(const Settings& settings, OutputFolder& folder) {
   const PhotographSettings& given = settings.photograph;
-  const Fabric first = first_parameters(given.structure, given.areal_density);
+  const std::optional<Tag> tag = tag_of(given);
+  const Structure structure = tag ? structure_from_category(tag->category) : given.structure;
+  const Fabric first = first_parameters(structure, given.areal_density);
   std::vector<Photograph> photographs;
   std::vector<Picture> pictures;
   std::map<double, std::vector<size_t>> of_radius;
@@ -129,7 +133,10 @@ RunOutcome run_photograph(const Settings& settings, OutputFolder& folder) {
     of_radius[radius].push_back(i);
   }
   EstimateOptions options = estimate_options(settings);
-  options.prior = fit_prior(settings, given.prior, given.structure, first);
+  options.prior = given.prior == PriorKind::tag
+                      ? tag_prior(settings.estimate, settings.reading.threshold)(options.parameters,
+                                                                                 tag.value())
+                      : fit_prior(settings, given.prior, structure, first);
   const WarpSearch search = fit_pictures(settings, pictures, first, options);
   const Estimate& result = search.best;
 
@@ -145,6 +152,8 @@ RunOutcome run_photograph(const Settings& settings, OutputFolder& folder) {
     for (size_t k = 0; k < indices.size(); ++k) {
       const size_t i = indices[k];
       record = observed_record(own, given.files[i], photographs[i], mesh, first);
+      if (tag) copy_tag(tagged(*tag, first), record);
+      record.name = record.id;
       record.estimate =
           estimate_record(search.pictures[i], result.pictures[i], result, options.parameters);
       store.save(static_cast<int>(k), record);

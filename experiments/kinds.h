@@ -25,6 +25,7 @@ RunOutcome run_dataset(const Settings& settings, OutputFolder& folder);
 RunOutcome drape_dataset(const Settings& settings, OutputFolder& folder);
 RunOutcome run_estimate(const Settings& settings, OutputFolder& folder);
 RunOutcome run_photograph(const Settings& settings, OutputFolder& folder);
+RunOutcome run_photograph_set(const Settings& settings, OutputFolder& folder);
 RunOutcome run_gradient_check(const Settings& settings, OutputFolder& folder);
 RunOutcome run_robustness(const Settings& settings, OutputFolder& folder);
 RunOutcome run_quickstart(const Settings& settings, OutputFolder& folder);

@@ -43,18 +43,34 @@ void probe_records(const std::filesystem::path& file) {
   probe(file.string(), [&file] { visit_records(file, [](size_t, const Record&) {}); });
 }
 
+/// What is said of a photographed fabric, and its pictures.
+void check_photographs(const Settings& settings) {
+  tag_of(settings.photograph);
+  for (size_t i = 0; i < settings.photograph.files.size(); ++i) {
+    const Scene scene = with_specimen(settings, i).scene;
+    validate(scene);
+    read_photograph(settings.photograph.files[i], 1e-3 * settings.photograph.mm_per_pixel, scene);
+  }
+}
+
 /// Reads the input files of a run before anything is written: throws what the run itself would.
 void check_inputs(const Settings& settings) {
   const Kind kind = settings.experiment.kind;
-  if (kind == Kind::estimate && !settings.estimate.tag_dataset.empty()) {
+  if (!settings.estimate.tag_dataset.empty()) {
     probe_records(settings.estimate.tag_dataset);
     tag_regression(settings.estimate.tag_dataset);
   }
   if (settings.start.protocol == StartProtocol::guided) start_profile(settings);
   if (kind == Kind::photograph) {
-    for (size_t i = 0; i < settings.photograph.files.size(); ++i)
-      read_photograph(settings.photograph.files[i], 1e-3 * settings.photograph.mm_per_pixel,
-                      with_specimen(settings, i).scene);
+    check_photographs(settings);
+  } else if (kind == Kind::photograph_set) {
+    const std::filesystem::path& manifest = settings.photograph_set.manifest;
+    for (const PhotographedFabric& fabric : read_photograph_manifest(manifest)) try {
+        check_photographs(with_photographs(settings, fabric));
+      } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(manifest.string() + ": fabric '" + fabric.id +
+                                    "': " + error.what());
+      }
   } else if (kind == Kind::paper) {
     paper_parts(settings);
   } else if (kind == Kind::estimate && !settings.estimate.dataset.empty()) {
@@ -100,9 +116,11 @@ int execute(const CommandLine& line) {
     case Command::estimate: {
       const Settings settings = read_settings(line.file, line.assignments);
       const Kind kind = settings.experiment.kind;
-      if (kind != Kind::estimate && kind != Kind::photograph)
-        throw UsageError("estimate needs a config of kind \"estimate\" or \"photograph\", not \"" +
-                         name(kind) + "\"; use drape run");
+      if (kind != Kind::estimate && kind != Kind::photograph && kind != Kind::photograph_set)
+        throw UsageError(
+            "estimate needs a config of kind \"estimate\", \"photograph\" or \"photograph_set\", "
+            "not \"" +
+            name(kind) + "\"; use drape run");
       return run(settings, line.out);
     }
     case Command::validate: {

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "experiments/tag_report.h"
+
 namespace drape {
 namespace {
 
@@ -14,6 +16,30 @@ Settings with_specimen(Settings settings, size_t file) {
   const std::vector<double>& radii = settings.photograph.specimen_radius_mm;
   if (!radii.empty()) settings.scene.specimen_radius = 1e-3 * radii[radii.size() == 1 ? 0 : file];
   return settings;
+}
+
+Settings with_photographs(Settings settings, const PhotographedFabric& fabric) {
+  PhotographSettings& own = settings.photograph;
+  own.files.clear();
+  for (const std::filesystem::path& file : fabric.files)
+    own.files.push_back(std::filesystem::absolute(file));
+  own.mm_per_pixel = fabric.mm_per_pixel;
+  own.areal_density = fabric.areal_density;
+  own.specimen_radius_mm = fabric.specimen_radius_mm;
+  if (fabric.warp_angle_deg) {
+    own.warp_angles = {*fabric.warp_angle_deg};
+    own.warp_angle_sd = 0;
+  }
+  own.type = fabric.type;
+  own.composition = fabric.composition;
+  if (fabric.has_tag()) own.prior = PriorKind::tag;
+  settings.photograph_set = {};
+  return settings;
+}
+
+std::optional<Tag> tag_of(const PhotographSettings& settings) {
+  if (settings.type.empty()) return std::nullopt;
+  return tag_from_words(settings.type, settings.composition, settings.areal_density);
 }
 
 Picture picture_of(const Settings& settings, const Potential& model, const Photograph& photograph) {

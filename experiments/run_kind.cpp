@@ -14,6 +14,8 @@ RunOutcome run_kind(const Settings& settings, OutputFolder& folder) {
       return run_estimate(settings, folder);
     case Kind::photograph:
       return run_photograph(settings, folder);
+    case Kind::photograph_set:
+      return run_photograph_set(settings, folder);
     case Kind::gradient_check:
       return run_gradient_check(settings, folder);
     case Kind::robustness:

@@ -27,6 +27,7 @@ enum class Kind {
   dataset,
   estimate,
   photograph,
+  photograph_set,
   gradient_check,
   robustness,
   quickstart,
@@ -204,13 +205,19 @@ struct PhotographSettings {
   double mm_per_pixel = 0;   ///< [mm]; 0: not given
   double areal_density = 0;  ///< [kg/m^2]; 0: not given
   Structure structure = Structure::woven;
-  double outline_noise = 3e-3;  ///< [m]; free drapes miss photographs by 1.7 to 4.3 mm
+  std::string type, composition;  ///< of the tag, as people write them; empty: none
+  double outline_noise = 3e-3;    ///< [m]; free drapes miss photographs by 1.7 to 4.3 mm
   std::vector<double> warp_angles{0, 45, 90, 135};  ///< [deg]
   double warp_angle_sd = 25;                        ///< [deg]; 0: known
   double scale_log_sd = 0.005;                      ///< 0: known
   std::vector<double> specimen_radius_mm;           ///< of each file, or one; empty: the scene's
   double camera_height_mm = 0;                      ///< above the support; 0: orthographic
   PriorKind prior = PriorKind::weight;
+};
+
+/// Photographs of many fabrics; how they are fitted is in PhotographSettings.
+struct PhotographSetSettings {
+  std::filesystem::path manifest;  ///< a table, photograph_manifest.h
 };
 
 /// How the threshold of bending is read, and whether the stiffness past it is estimated.
@@ -327,6 +334,7 @@ struct Settings {
   DatasetSettings dataset;
   EstimateSettings estimate;
   PhotographSettings photograph;
+  PhotographSetSettings photograph_set;
   GradientCheckSettings gradient_check;
   RobustnessSettings robustness;
   QuickstartSettings quickstart;

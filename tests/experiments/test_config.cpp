@@ -56,6 +56,8 @@ ConfigValue another_value(const ConfigKey& key) {
     case ValueType::choice:
       return std::get<std::string>(value) == key.choices.back() ? key.choices.front()
                                                                 : key.choices.back();
+    case ValueType::text:
+      return std::string("Cut & \"Sew\"");
     case ValueType::path:
       return std::string("/tables/a \"b\"\\\tc.csv");
     case ValueType::integers:
