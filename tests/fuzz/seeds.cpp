@@ -97,6 +97,10 @@ int main(int argc, char** argv) {
         "fBucklingStiffnessU,fBucklingStiffnessV,fBucklingStiffnessH,fBuLR,fBvLR,fBhLR\n"
         "x,Twill,Woven,,Cotton 97; Spandex / Elastane 3,168,1e6,1e6,5e4,20000,2e4,2e4,.8,.8,.8,.3,"
         ".3,.3\n");
+  write(folder / "tables/photographs",
+        "id,file,mm_per_pixel,areal_density_gsm,specimen_radius_mm,warp_angle_deg,type,"
+        "composition_percent\na,1.png,1.39,200,150,90,Twill,Cotton 97; Elastane 3\n"
+        "a,2.png,1.39,200,120,90,Twill,Cotton 97; Elastane 3\nb,3.png,1.39,80,,,,\n");
   write(folder / "photograph/png", silhouette(".png"));
   write(folder / "photograph/jpeg", silhouette(".jpg"));
   for (const int nodes : {0, 5, 8})
