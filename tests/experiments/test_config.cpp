@@ -307,7 +307,11 @@ TEST(Config, SettingsMustFitTogether) {
   EXPECT_TRUE(contains(set_error("experiment.kind=photograph"), "needs photograph.files"));
   EXPECT_TRUE(contains(set_error("experiment.kind=quickstart"), "needs quickstart.table"));
   EXPECT_TRUE(contains(set_error("dataset.radii=[0.12]"), "only for kind \"dataset\""));
-  EXPECT_TRUE(contains(set_error("photograph.prior=tag"), "a photograph has none"));
+  EXPECT_TRUE(contains(set_error("photograph.prior=tag"), "needs photograph.type"));
+  EXPECT_TRUE(contains(set_error("photograph.type=Twill"), "give both"));
+  EXPECT_TRUE(
+      contains(set_error("experiment.kind=photograph_set"), "needs photograph_set.manifest"));
+  EXPECT_EQ(set_error("photograph.specimen_radius_mm=[150, 120, 150]"), "no error");
   EXPECT_EQ(set_error("fabric.bending_law=secant"), "no error");
   EXPECT_TRUE(
       contains(read_error(std::nullopt, {assignment_from_set("experiment.kind=gradient_check"),

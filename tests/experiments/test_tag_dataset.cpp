@@ -122,7 +122,7 @@ TEST_F(TagDataset, ConfigKeyIsCheckedBeforeARunBegins) {
   fabrics.resize(7);
   write("few.h5");
   const std::string run = "estimate --dataset few.h5 --out out --set estimate.tag_dataset=few.h5";
-  expect_refused(run, "only for estimate.prior or estimate.first = \"tag\"");
+  expect_refused(run, "only for estimate.prior, estimate.first or photograph.prior = ");
   expect_refused(run + " --set estimate.prior=tag", "few.h5: what a tag tells cannot be learned");
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }
