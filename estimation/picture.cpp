@@ -83,6 +83,12 @@ Points2 Placement::seen(const Points2& drape) const {
   return push_forward(drape.rowwise() - centre.transpose());
 }
 
+Points2 Placement::unseen(const Points2& picture) const {
+  Points2 drape = picture * seen_from_drape(*this).inverse().transpose();
+  drape.rowwise() += centre.transpose();
+  return drape;
+}
+
 Points2 Placement::pull_back(const Points2& dL_dseen) const {
   return dL_dseen * seen_from_drape(*this);
 }

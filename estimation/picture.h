@@ -62,6 +62,8 @@ struct Placement {
 
   /// Corners as seen (one a row) from corners of the drape.
   Points2 seen(const Points2& drape) const;
+  /// The other way round.
+  Points2 unseen(const Points2& picture) const;
   /// dL/dcorners of the drape from dL/dcorners as seen.
   Points2 pull_back(const Points2& dL_dseen) const;
   /// Velocity of the corners as seen when those of the drape move.

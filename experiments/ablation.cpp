@@ -27,14 +27,17 @@ constexpr double kLargestStep = 0.1;    // of a path of fabrics, whose length is
 constexpr double kSmallestStep = 3e-3;  // no step that counts below it: a snap
 constexpr int kMostSnaps = 20;          // on a path; then it is given up
 
-double outline_rms(const SeenDrape& a, const SeenDrape& b) {
-  return (a.profile - b.profile).norm() / std::sqrt(static_cast<double>(a.profile.size()));
+double rms(const VecX& difference) {
+  return difference.norm() / std::sqrt(static_cast<double>(difference.size()));
 }
 
-Json difference(const SeenDrape& from, const SeenDrape& to) {
-  return {{"change", to.coefficient - from.coefficient},
-          {"outline_rms", outline_rms(from, to)},
-          {"node_change", to.nodes - from.nodes}};
+Json difference(const UnchangedDrape& unchanged, const SeenDrape& from, const SeenDrape& to) {
+  Json item = {{"change", to.coefficient - from.coefficient},
+               {"outline_rms", rms(to.profile - from.profile)},
+               {"node_change", to.nodes - from.nodes}};
+  if (unchanged.observed.size() > 0)
+    item["miss_change"] = unchanged.miss(to) - unchanged.miss(from);
+  return item;
 }
 
 /// From one fabric to another, unit length, straight in the logarithms.
@@ -74,7 +77,7 @@ Json follow_path(const UnchangedDrape& from, const Settings& changed) {
                {"snaps", snaps},
                {"snap_change", snap_change}};
   if (arrived)
-    item.update(difference(from.seen, see(scene, potential.mesh(), state.equilibrium.x)));
+    item.update(difference(from, from.seen, see(scene, potential.mesh(), state.equilibrium.x)));
   return item;
 }
 
@@ -100,7 +103,7 @@ Json follow_warm(const UnchangedDrape& from, const Settings& changed,
   item["way_back"] = largest_distance(back.x, from.drape.equilibrium.x);
   item["followed"] =
       back.converged() && largest_distance(back.x, from.drape.equilibrium.x) < kSameDrape;
-  item.update(difference(from.seen, see(changed.scene, other, there.x)));
+  item.update(difference(from, from.seen, see(changed.scene, other, there.x)));
   return item;
 }
 
@@ -110,7 +113,7 @@ Json polished(const UnchangedDrape& from, const Potential& potential, const Equi
       solve_equilibrium(potential, loose.x, equilibrium_options(from.settings));
   Json item = {{"status", name(tight.status)}, {"followed", tight.converged()}, {"snaps", 0}};
   if (tight.converged())
-    item.update(difference(see(from.settings.scene, potential.mesh(), tight.x),
+    item.update(difference(from, see(from.settings.scene, potential.mesh(), tight.x),
                            see(from.settings.scene, potential.mesh(), loose.x)));
   return item;
 }
@@ -147,8 +150,9 @@ Fabric fabric_of_coefficient(const Settings& settings,
 }
 
 UnchangedDrape::UnchangedDrape(const Settings& settings_,
-                               std::shared_ptr<const Discretization> discretization)
+                               std::shared_ptr<const Discretization> discretization, VecX observed_)
     : settings(settings_),
+      observed(std::move(observed_)),
       potential(make_potential(std::move(discretization), settings_.fabric, settings_)) {
   Settings free = settings;
   free.contact = ContactMode::off;
@@ -161,6 +165,8 @@ UnchangedDrape::UnchangedDrape(const Settings& settings_,
     throw std::runtime_error("the unchanged drape: " + std::string(name(drape.equilibrium.status)));
   seen = see(settings.scene, potential.mesh(), drape.equilibrium.x);
 }
+
+double UnchangedDrape::miss(const SeenDrape& of) const { return rms(of.profile - observed); }
 
 Json ablate(const UnchangedDrape& unchanged, const Ingredient& ingredient,
             std::shared_ptr<const Discretization> changed_discretization) {
@@ -191,7 +197,7 @@ Json check_contact_rule(const UnchangedDrape& unchanged) {
                {"acts", unchanged.penetration > kAllowedPenetration}};
   if (!held.converged()) return item;
   const Mesh& mesh = potential.mesh();
-  item.update(difference(see(settings.scene, mesh, unchanged.without_contact),
+  item.update(difference(unchanged, see(settings.scene, mesh, unchanged.without_contact),
                          see(settings.scene, mesh, held.x)));
   item["needed"] = std::abs(item["change"].get<double>()) > settings.mesh.tolerance ||
                    item["outline_rms"].get<double>() > settings.ablation.outline_tolerance;

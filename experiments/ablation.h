@@ -33,9 +33,15 @@ Fabric fabric_of_coefficient(const Settings& settings,
 
 /// The drape that changes are followed from. Throws std::runtime_error if it is no minimum.
 struct UnchangedDrape {
-  UnchangedDrape(const Settings& settings, std::shared_ptr<const Discretization> discretization);
+  /// observed: the radii of a photograph of it, if there is one.
+  UnchangedDrape(const Settings& settings, std::shared_ptr<const Discretization> discretization,
+                 VecX observed = {});
+
+  /// rms distance of the profile of a drape from the photograph's [m].
+  double miss(const SeenDrape& drape) const;
 
   Settings settings;
+  VecX observed;         ///< [m], empty without a photograph
   VecX without_contact;  ///< the drape before contact was decided about (3n)
   double penetration;    ///< of that [m]
   Potential potential;   ///< with the support where it acts
@@ -45,7 +51,8 @@ struct UnchangedDrape {
 
 /// The change: status, "followed" (the branch was kept, or every snap on the way is known), "snaps"
 /// and "snap_change" [points], "change" of the drape coefficient [points] with them, "outline_rms"
-/// [m], "node_change"; "cold_change" [points] and "cpu_ratio" of the drape by the protocol.
+/// [m], "node_change" and, where there is a photograph, "miss_change", of the rms distance from it
+/// [m]; "cold_change" [points] and "cpu_ratio" of the drape by the protocol.
 /// changed: discretization of the changed settings.
 nlohmann::ordered_json ablate(const UnchangedDrape& unchanged, const Ingredient& ingredient,
                               std::shared_ptr<const Discretization> changed);

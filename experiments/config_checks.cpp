@@ -71,9 +71,9 @@ void check_fit(const Settings& settings, const Refuse& refuse) {
   }
   if (kind == Kind::photograph_set && settings.photograph_set.manifest.empty())
     refuse("experiment.kind", "a set of photographs needs photograph_set.manifest");
-  if (kind == Kind::photographs) {
-    if (settings.photographs.folder.empty())
-      refuse("experiment.kind", "photographs need photographs.folder");
+  if (kind == Kind::photographs && settings.photographs.folder.empty())
+    refuse("experiment.kind", "photographs need photographs.folder");
+  if (!settings.photographs.folder.empty()) {
     if (!(settings.photograph.mm_per_pixel > 0))
       refuse("photograph.mm_per_pixel", "photographs need photograph.mm_per_pixel > 0");
     if (settings.photographs.models.empty())
@@ -83,6 +83,10 @@ void check_fit(const Settings& settings, const Refuse& refuse) {
              "photographs.densities must hold one density for each of "
              "photographs.weighed");
   }
+  if (kind == Kind::ablation && !settings.photographs.folder.empty() &&
+      settings.photograph.camera_height_mm > 0)
+    refuse("photograph.camera_height_mm",
+           "an ablation holds drapes against photographs.folder in orthographic views only");
   if (settings.dataset.shard > settings.dataset.shards)
     refuse("dataset.shard", "dataset.shard must be 1 to dataset.shards");
   if (!settings.dataset.table.empty() && !settings.dataset.parameters.empty())

@@ -30,27 +30,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kStiffEnough = 55;  // drape coefficient above which fits are expected [percent]
 
-struct FabricCaptures {
-  int fabric;
-  std::vector<Capture> all, chosen;
-};
-
 /// One piece of work, kept under its name.
 struct Item {
   std::string name;
   std::function<Json()> work;
 };
-
-std::vector<FabricCaptures> by_fabric(const Settings& settings) {
-  std::map<int, std::vector<Capture>> groups;
-  for (const Capture& capture :
-       find_captures(settings.photographs.folder, settings.photographs.fabrics))
-    groups[capture.fabric].push_back(capture);
-  std::vector<FabricCaptures> fabrics;
-  for (const auto& [fabric, all] : groups)
-    fabrics.push_back({fabric, all, chosen_captures(all, settings.photographs.captures)});
-  return fabrics;
-}
 
 /// Does what is not done yet. A picture that cannot be read or a fit that throws is kept as such.
 void work_through(const Settings& settings, const JsonStore& store, const std::string& title,
@@ -259,10 +243,7 @@ RunOutcome run_photographs(const Settings& settings, OutputFolder& folder) {
     std::cout << reason << "\n";
     return {"ok", {{"skipped", reason}}};
   }
-  const std::vector<FabricCaptures> fabrics = by_fabric(settings);
-  if (fabrics.empty())
-    throw std::invalid_argument("photographs.folder: " + settings.photographs.folder.string() +
-                                " holds no fabric_NN/specimen_SS_capture_C.jpg");
+  const std::vector<FabricCaptures> fabrics = captures_by_fabric(settings);
   const auto discretization = make_discretization(settings);
   const JsonStore fits(folder, "fits"), predictions(folder, "predictions"),
       protocols(folder, "protocols");

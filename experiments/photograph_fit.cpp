@@ -62,10 +62,11 @@ WarpSearch fit_pictures(const Settings& settings, std::vector<Picture> pictures,
                         const Fabric& first, const EstimateOptions& options) {
   std::vector<double> weft_angles;
   for (const double angle : settings.photograph.warp_angles)
-    weft_angles.push_back(kDegree * (angle - kRightAngle));
+    weft_angles.push_back(weft_angle(angle));
   return estimate_with_warp(std::move(pictures), weft_angles, first, options);
 }
 
 double warp_degrees(double weft_angle) { return weft_angle / kDegree + kRightAngle; }
+double weft_angle(double warp_degrees) { return kDegree * (warp_degrees - kRightAngle); }
 
 }  // namespace drape

@@ -32,5 +32,7 @@ WarpSearch fit_pictures(const Settings& settings, std::vector<Picture> pictures,
 
 /// Direction of the warp of an angle of the weft [rad], in degrees.
 double warp_degrees(double weft_angle);
+/// The other way round.
+double weft_angle(double warp_degrees);
 
 }  // namespace drape

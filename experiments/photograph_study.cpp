@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <regex>
 #include <set>
 #include <stdexcept>
 #include <tuple>
 
 #include "estimation/tag.h"
+#include "experiments/json_store.h"
 #include "experiments/model.h"
 #include "experiments/photograph_fit.h"
 #include "experiments/recovery.h"
@@ -29,12 +31,6 @@ Json in_millimetres(const VecX& profile) {
 
 Photograph read_capture(const Settings& settings, const Capture& capture) {
   return read_photograph(capture.file, 1e-3 * settings.photograph.mm_per_pixel, settings.scene);
-}
-
-Fabric fitted_fabric(const Json& fit) {
-  Fabric fabric;
-  for (const Parameter p : all_parameters()) fabric[p] = fit["parameters"][std::string(name(p))];
-  return fabric;
 }
 
 Json account(const Settings& settings, const Photograph& photograph, const WarpSearch& search,
@@ -60,6 +56,7 @@ Json account(const Settings& settings, const Photograph& photograph, const WarpS
     item["rigidity_log_sd"].push_back(e.rigidity_log_sd[i]);
   }
   item["cost"] = result.cost;
+  for (const double x : drape.placement.centre) item["centre_mm"].push_back(1e3 * x);
   item["warp_angle_deg"] = warp_degrees(drape.placement.weft_angle);
   item["scale"] = std::exp(drape.placement.log_scale);
   item["wings_past_threshold"] = e.stats.wings_past_threshold;
@@ -164,6 +161,20 @@ std::vector<Capture> chosen_captures(const std::vector<Capture>& of_fabric, int 
   return chosen;
 }
 
+std::vector<FabricCaptures> captures_by_fabric(const Settings& settings) {
+  const PhotographsSettings& study = settings.photographs;
+  std::map<int, std::vector<Capture>> groups;
+  for (const Capture& capture : find_captures(study.folder, study.fabrics))
+    groups[capture.fabric].push_back(capture);
+  if (groups.empty())
+    throw std::invalid_argument("photographs.folder: " + study.folder.string() +
+                                " holds no fabric_NN/specimen_SS_capture_C.jpg");
+  std::vector<FabricCaptures> fabrics;
+  for (const auto& [fabric, all] : groups)
+    fabrics.push_back({fabric, all, chosen_captures(all, study.captures)});
+  return fabrics;
+}
+
 Settings with_model(Settings settings, PhotographModel model) {
   settings.reading.threshold =
       model == PhotographModel::printed ? BendingThreshold::printed : BendingThreshold::radius;
@@ -198,6 +209,18 @@ Json fit_capture(const Settings& settings, std::shared_ptr<const Discretization>
   return account(settings, photograph,
                  fit_pictures(settings, {picture_of(settings, model, photograph)}, first, options),
                  options.parameters);
+}
+
+Fabric fitted_fabric(const Json& fit) {
+  Fabric fabric;
+  for (const Parameter p : all_parameters()) fabric[p] = fit["parameters"][std::string(name(p))];
+  return fabric;
+}
+
+Points2 outline_on_fabric(const Settings& settings, const Capture& capture, const Json& fit) {
+  const Placement placement{1e-3 * Vec2(fit["centre_mm"][0], fit["centre_mm"][1]),
+                            weft_angle(fit["warp_angle_deg"]), std::log(number(fit["scale"]))};
+  return placement.unseen(read_capture(settings, capture).boundary);
 }
 
 Json predict_capture(const Settings& settings, std::shared_ptr<const Discretization> discretization,

@@ -35,6 +35,15 @@ std::vector<Capture> find_captures(const std::filesystem::path& folder,
 /// then the others: the first `count` of these.
 std::vector<Capture> chosen_captures(const std::vector<Capture>& of_fabric, int count);
 
+struct FabricCaptures {
+  int fabric;
+  std::vector<Capture> all, chosen;
+};
+
+/// Those of photographs.folder, as [photographs] chooses them. Throws std::invalid_argument if it
+/// holds none.
+std::vector<FabricCaptures> captures_by_fabric(const Settings& settings);
+
 /// The settings with the model's bending threshold and its unknowns.
 Settings with_model(Settings settings, PhotographModel model);
 
@@ -49,6 +58,14 @@ nlohmann::ordered_json seen_in(const Settings& settings, const Photograph& photo
 nlohmann::ordered_json fit_capture(const Settings& settings,
                                    std::shared_ptr<const Discretization> discretization,
                                    const Capture& capture);
+
+/// The "parameters" of such a fit.
+Fabric fitted_fabric(const nlohmann::ordered_json& fit);
+
+/// The picture's outline where its fit places it, in the axes of the fabric about the axis of the
+/// support (closed polygon) [m]. The view is taken for orthographic.
+Points2 outline_on_fabric(const Settings& settings, const Capture& capture,
+                          const nlohmann::ordered_json& fit);
 
 /// The picture `capture` predicted from another's fit (fit_capture's, of the same model): only how
 /// the picture lies is fitted, the fabric stays as it is. The branch comes from the picture.

@@ -17,7 +17,7 @@ RULES = (("contact_rule", "contact = auto"), ("resolution_rule", "vertices = aut
 
 
 def page(result):
-    fabrics = [i for i, fabric in enumerate(result["fabrics"]) if fabric["status"] == "converged"]
+    fabrics = [fabric for fabric in result["fabrics"] if fabric["status"] == "converged"]
     rows = result["ingredients"]
     columns = max(len(fabrics), 1)
     cell = max(LEAST_MATRIX / columns, min(
@@ -36,16 +36,22 @@ def page(result):
         axes = matrix(figure, left, width, height, columns, len(rows))
         figure.text(left, TOP - 10, title)
         for column, fabric in enumerate(fabrics):
-            axes.text(column + 0.5, -0.2, coefficient(result["fabrics"][fabric]), ha="center",
-                      va="bottom", fontsize=6)
+            axes.text(column + 0.5, -0.2, coefficient(fabric), ha="center", va="bottom", fontsize=6)
             for row, ingredient in enumerate(rows):
-                paint(axes, column, row, cells.get((ingredient["name"], fabric)), words, value, ends)
+                paint(axes, column, row, cells.get((ingredient["name"], fabric["name"])), words, value, ends)
     for row, ingredient in enumerate(rows):
         figure.text(6, TOP + ROW * (row + 0.5), ingredient["label"], va="center")
     cost(figure, lefts[1] + width + GAP, height, rows, result["cells"])
     for i, (rule, title) in enumerate(checked):
         check(figure, LABEL / 2 + 6 + 88 * i, below + 9, result, rule, title)
     return figure
+
+
+def dots(axes, row, values):
+    axes.plot(values, [row + 0.5] * len(values), "o", color=style.FAINT, markersize=2.4)
+    if values:
+        axes.plot([np.median(values)] * 2, [row + 0.2, row + 0.8], color=style.ESTIMATE,
+                  linewidth=1.6)
 
 
 def coefficient(fabric):
@@ -116,10 +122,7 @@ def cost(figure, left, height, rows, cells):
     for row, ingredient in enumerate(rows):
         ratios = [c["cpu_ratio"] for c in cells
                   if c["ingredient"] == ingredient["name"] and c.get("cpu_ratio")]
-        axes.plot(ratios, [row + 0.5] * len(ratios), "o", color=style.FAINT, markersize=2.4)
-        if ratios:
-            axes.plot([np.median(ratios)] * 2, [row + 0.2, row + 0.8], color=style.ESTIMATE,
-                      linewidth=1.6)
+        dots(axes, row, ratios)
     low, high = axes.get_xlim()
     axes.set_xlim(min(low, 0.45), max(high, 2.2))
     axes.set_xticks([tick for tick in (0.1, 0.5, 1, 2, 5, 20) if axes.get_xlim()[0] <= tick

@@ -51,6 +51,8 @@ TEST(Picture, ATurnedShiftedMagnifiedOutline) {
   seen << 0, 0.05;        // the weft points upwards and every length appears halved
   EXPECT_LE((Placement{{0.002, 0.003}, M_PI / 2, std::log(2)}.seen(drape) - seen).norm(), 1e-16);
   EXPECT_EQ(Placement{}.seen(drape), drape);
+  const Placement turned{{0.002, -0.003}, 0.7, 0.02};
+  EXPECT_LE((turned.unseen(turned.seen(drape)) - drape).norm(), 1e-16);  // rounding
 }
 
 TEST(Picture, DerivativesOfThePlacement) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "experiments/ablation.h"
 #include "experiments/model.h"
 #include "experiments/peak_memory.h"
+#include "tests/experiments/drawn_photograph.h"
+#include "tests/experiments/program_fixture.h"
 #include "tests/experiments/small_drape.h"
 
 namespace drape {
@@ -106,6 +109,38 @@ TEST(Ablation, FabricsHaveTheCoefficientAskedFor) {
   EXPECT_NEAR(UnchangedDrape(stiffer, coarse).seen.coefficient, 90, 3);  // nine bisections
   EXPECT_GT(stiffer.fabric.k_bu, settings.fabric.k_bu);
   EXPECT_NEAR(stiffer.fabric.k_bu / stiffer.fabric.k_bv, 2, 1e-12);  // rounding
+}
+
+using AblationOfPhotographs = ProgramInFolder;
+
+TEST_F(AblationOfPhotographs, SaysHowFarDrapesAreFromThem) {
+  const std::string picture = "photos/fabric_05/specimen_01_capture_1.png";
+  std::filesystem::create_directories((scratch / picture).parent_path());
+  scratch.write(picture, silhouette(6));
+  scratch.write("a.toml",
+                "experiment.kind = \"ablation\"\nmesh.vertices = 300\n"
+                "[ablation]\ndrape_coefficients = [85]\nlargest_vertices = 0\n"
+                "ingredients = [\"shear_soft\", \"contact_off\"]\n"
+                "[photographs]\nfolder = \"photos\"\n[estimate]\nmax_moves = 0\n"
+                "[photograph]\nmm_per_pixel = 2.78\nwarp_angles = [90]\noutline_noise = 6e-3\n");
+  const Ended ended = drape("run a.toml --out out --threads 1");
+  ASSERT_EQ(ended.exit_code, 0) << ended.text;
+  const Json all = Json::parse(scratch.read("out/summary.json")), photographs = all["photographs"];
+  EXPECT_EQ(all["fabrics"].size(), 1u);
+  ASSERT_EQ(photographs["fabrics"].size(), 1u);
+  const Json& picture_of_it = photographs["fabrics"][0];
+  EXPECT_EQ(picture_of_it["name"], "05_01_1");
+  EXPECT_EQ(picture_of_it["node_count"], 6);
+  EXPECT_GT(picture_of_it["miss_mm"], 0.1);
+  EXPECT_LT(picture_of_it["miss_mm"], 20);  // a drawn drape may not exist
+  ASSERT_EQ(photographs["cells"].size(), 2u);
+  const Json& sheared = photographs["cells"][0];
+  EXPECT_NE(sheared["miss_change"].get<double>(), 0);
+  EXPECT_LE(std::abs(sheared["miss_change"].get<double>()), sheared["outline_rms"].get<double>());
+  EXPECT_FALSE(all["cells"][0].contains("miss_change"));
+  // the outline, in the axes of the fabric, starts the same drape elsewhere
+  EXPECT_TRUE(scratch.read("out/outlines/05_01_1.csv").starts_with("x,y\n"));
+  EXPECT_TRUE(std::filesystem::exists(scratch / "out/photographs.png"));
 }
 
 TEST(PeakMemory, CountsWhatIsTouchedAndFreed) {

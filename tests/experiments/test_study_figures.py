@@ -12,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from figures import FigureTest  # noqa: E402  (finds the scripts as well)
 
 import ablation  # noqa: E402
+import ablation_photographs  # noqa: E402
 import accuracy  # noqa: E402
 import estimation_precision  # noqa: E402
 import gradient_precision  # noqa: E402
@@ -85,7 +86,7 @@ def ablation_result():
     cells = []
     for i, name in enumerate(names):
         for fabric in range(6):
-            cell = {"ingredient": name, "fabric": fabric, "status": "converged", "followed": i != 2,
+            cell = {"ingredient": name, "fabric": str(fabric), "status": "converged", "followed": i != 2,
                     "snaps": int(i == 3), "snap_change": 2.0 * (i == 3), "cpu_ratio": 0.5 + 0.1 * i,
                     "change": -0.004 * 3.0 ** (i % 8), "outline_rms": 1e-5 * 2.2 ** (i % 9),
                     "node_change": -1 if i == 4 else 0}
@@ -93,16 +94,19 @@ def ablation_result():
                           ("change", "outline_rms", "node_change")})
     rule = {"checked": 6, "acts_where_needed": 2, "idle_where_not_needed": 3, "acts_needlessly": 0,
             "idle_where_needed": 1}
+    fabrics = [{"name": str(i), "status": "converged", "drape_coefficient_percent": 15 * i + 10.0,
+                "miss_mm": 2.5} for i in range(6)] + [{"name": "6", "status": "no drape"}]
+    rows = [{"name": name, "label": "threshold read otherwise", "followed": 6} for name in names]
     return {"vertices": 1000, "tolerance_points": 0.5, "outline_tolerance_mm": 1.0,
-            "fabrics": [{"status": "converged", "drape_coefficient_percent": 15 * i + 10.0}
-                        for i in range(6)] + [{"status": "no drape"}],
-            "ingredients": [{"name": name, "label": "threshold read otherwise"} for name in names],
+            "fabrics": fabrics, "ingredients": rows,
             "contact_rule": rule | {"cells": [{"penetration": 1e-4 * 4.0**i, "change": 0.01 * 3.0**i}
                                               for i in range(6)]},
             "resolution_rule": rule | {"cells": [
                 {"status": "within_tolerance", "estimate": 0.1 * 2.0**i, "error": 0.03 * 2.0**i,
                  "same_branch": i > 0} for i in range(6)] + [{"status": "limited_by_solver"}]},
-            "cells": cells}
+            "cells": cells,
+            "photographs": {"fabrics": fabrics, "ingredients": rows, "cells": [
+                cell | {"miss_change": 1e-4 * i} for i, cell in enumerate(cells)]}}
 
 
 def gradients_result():
@@ -220,6 +224,10 @@ class Studies(FigureTest):
         page = ablation.page(ablation_result())
         self.check_layout(page)
         self.assertIn("does not act where needed 1, acts needlessly 0", self.words(page))
+        page = ablation_photographs.page(ablation_result())
+        self.check_layout(page)
+        self.assertIn("Pictures: 7, draped: 6, with drape coefficients from 10 to 85",
+                      self.words(page))
         page = gradient_precision.page(gradients_result())
         self.check_layout(page)
         self.assertIn("Settings that failed: 1", self.words(page))
@@ -259,8 +267,8 @@ class Studies(FigureTest):
         for count in (0, 1, 2, 6):
             result = ablation_result()
             drape = {"status": "converged", "drape_coefficient_percent": 50}
-            result |= {"fabrics": [drape] * count,
-                       "cells": [c for c in result["cells"] if c["fabric"] < count]}
+            result |= {"fabrics": [drape | {"name": str(i)} for i in range(count)],
+                       "cells": [c for c in result["cells"] if int(c["fabric"]) < count]}
             page = ablation.page(result)
             self.check_layout(page)
             panels = [axes.get_position() for axes in page.figure.axes[:3]]
@@ -301,6 +309,7 @@ class Studies(FigureTest):
                                 ("work_precision", work_precision_chart()),
                                 ("stability", stability_atlas()),
                                 ("stability_methods", stability_atlas()),
+                                ("ablation_photographs", ablation_result()),
                                 ("estimation_precision", estimation_precision_chart()),
                                 ("ablation", ablation_result()),
                                 ("gradient_precision", gradients_result()),
