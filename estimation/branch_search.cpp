@@ -7,7 +7,7 @@
 namespace drape {
 namespace {
 
-constexpr double kExplained = 1.5;  // of the noise
+constexpr double kExplained = 1.5, kWellExplained = 1.2;  // of the noise
 constexpr int kFineHarmonics = 30;
 constexpr double kStiffer = 10;
 
@@ -48,6 +48,7 @@ std::vector<Move> neighbour_moves(int harmonics) {
 }
 
 bool explains(double miss) { return miss <= kExplained; }
+bool explains_well(double miss) { return miss <= kWellExplained; }
 
 bool is_better(EstimateOutcome outcome, double miss, EstimateOutcome than, double than_miss) {
   return std::tuple(outcome, miss) < std::tuple(than, than_miss);

@@ -6,6 +6,11 @@
 #include <utility>
 
 namespace drape {
+namespace {
+
+constexpr double kSmallStep = 2e-3;  // of the logarithm of a parameter
+
+}  // namespace
 
 DrapeObjective::DrapeObjective(std::vector<Picture> pictures, ParameterSpace space,
                                const std::optional<Prior>& prior, const MisfitOptions& options,
@@ -50,7 +55,7 @@ int DrapeObjective::picture_residuals() const {
 
 void DrapeObjective::start_from(size_t i, const Potential& potential, BranchPoint point,
                                 const ContinuationOptions& continuation) {
-  refused_ = false;
+  refused_ = at_edge_ = false;
   misfits_[i].start_from(potential, std::move(point), continuation);
 }
 
@@ -77,9 +82,11 @@ int DrapeObjective::solves() const {
 
 const BranchPoint* DrapeObjective::drape_at(size_t i, const VecX& u) {
   const int before = misfits_[i].work().solves;
-  const BranchPoint* drape =
-      misfits_[i].drape_at(space_, u.head(space_.size()), solves() < max_solves_);
+  const VecX z = u.head(space_.size());
+  const double step = misfits_[i].distance_from_known(z);
+  const BranchPoint* drape = misfits_[i].drape_at(space_, z, solves() < max_solves_);
   if (drape == nullptr || misfits_[i].work().solves > before) refused_ = drape == nullptr;
+  if (drape == nullptr && step < kSmallStep) at_edge_ = true;
   return drape;
 }
 

@@ -54,6 +54,8 @@ class DrapeObjective final : public FitObjective {
   VecX bounds() const;
   /// Whether the last drape asked for that was not known yet was refused.
   bool refused() const override { return refused_; }
+  /// Whether a branch was lost next to a drape that is known: it folds back there.
+  bool at_edge() const override { return at_edge_; }
   int solves() const;
 
  private:
@@ -67,7 +69,7 @@ class DrapeObjective final : public FitObjective {
   MatX prior_weight_;
   VecX prior_mean_;
   int max_solves_;
-  bool refused_ = false;
+  bool refused_ = false, at_edge_ = false;
 };
 
 }  // namespace drape

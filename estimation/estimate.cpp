@@ -81,17 +81,22 @@ class Estimation {
       if (is_better(now.outcome, now.miss, best.outcome, best.miss)) best = std::move(now);
       if (ends) break;
     }
-    return best.free() && !explains(best.miss) ? with_neighbours(std::move(best)) : best;
+    const bool lost = best.outcome == EstimateOutcome::branch_lost;
+    return lost || (best.free() && !explains_well(best.miss)) ? with_neighbours(std::move(best))
+                                                              : best;
   }
 
-  /// Moves from the best drape to better ones, until no move finds one or moves run out.
+  /// Moves from the best drape to better ones, until no move finds one or moves run out. To a
+  /// branch that was lost any free drape with the nodes observed is better.
   Attempt with_neighbours(Attempt best) {
     const std::vector<Move> moves = neighbour_moves(options_.guide_harmonics);
-    const double first_miss = best.miss;
+    const Attempt first = best;
+    if (!best.free()) best.miss = std::numeric_limits<double>::infinity();
     std::vector<FitState> known{best.state};
     size_t since_better = 0;
+    bool found = false;
     for (int tried = 0; tried < options_.max_moves && since_better < moves.size(); ++tried) {
-      if (explains(best.miss) || fit_.spent()) break;
+      if (explains_well(best.miss) || fit_.spent()) break;
       ++since_better;
       const size_t which = static_cast<size_t>(tried) % moves.size();
       fit_.take_up(best.state);
@@ -108,8 +113,9 @@ class Estimation {
       best.miss = miss;
       known = {best.state};
       since_better = 0;
+      found = true;
     }
-    if (best.miss == first_miss) return best;
+    if (!found) return first;
     fit_.take_up(best.state);
     return released(std::nullopt);
   }
@@ -133,20 +139,22 @@ class Estimation {
     return released(guided);
   }
 
+  Attempt unseen_nodes(FitState guided) const {
+    guided.message = "the free drapes have other nodes than the pictures";
+    return {EstimateOutcome::branch_lost, fit_.largest_miss(), std::move(guided)};
+  }
+
   Attempt lost() const { return {EstimateOutcome::branch_lost, fit_.largest_miss(), fit_.state()}; }
 
-  /// The free fit. One with other nodes than observed has left the branch: the last guided state
-  /// that had them is what is kept of it, where there is one.
+  /// The free fit. One with other nodes than observed has left the branch, be it at its start: the
+  /// last guided state that had them is what is kept of it, where there is one.
   Attempt released(const std::optional<FitState>& guided) {
     if (!fit_.set_guides(0)) return lost();
+    if (guided && !fit_.same_nodes()) return unseen_nodes(*guided);
     const bool converged = fit_.minimise(kFinalTolerance, options_.max_iterations);
+    if (guided && !fit_.same_nodes()) return unseen_nodes(*guided);
     const double miss = fit_.largest_miss();
     FitState state = fit_.state();
-    if (guided && !fit_.same_nodes()) {
-      state = *guided;
-      state.message = "the free drapes have other nodes than the pictures";
-      return {EstimateOutcome::branch_lost, miss, std::move(state)};
-    }
     if (!converged) return {EstimateOutcome::not_converged, miss, std::move(state)};
     if (explains(miss)) return {EstimateOutcome::succeeded, miss, std::move(state)};
     state.message = "an outline is missed by " + std::to_string(miss) + " times its noise (rms)";

@@ -40,10 +40,10 @@ struct EstimateOptions {
   int max_iterations = 60;          ///< of each fit
   ContactMode contact = ContactMode::automatic;  ///< with a start state, the model's is held
   EquilibriumOptions equilibrium;                ///< of the first, guided solve
-  /// Along the unguided fit: trials that lose the branch are cheap to give up, Ceres shortens them.
-  ContinuationOptions continuation{.halvings = 2, .largest_leap = 0.7};
-  int max_solves = 500;  ///< forward solves of one fit a picture, over all stages
-  int max_moves = 50;    ///< to neighbouring drapes where a misfit remains; 0: none is tried
+  /// Along the unguided fit: trials that lose the branch are given up at once, Ceres shortens them.
+  ContinuationOptions continuation{.halvings = 0, .largest_leap = 0.7};
+  int max_solves = 1000;  ///< forward solves of one fit a picture, over all stages
+  int max_moves = 50;     ///< to neighbouring drapes where a misfit remains; 0: none is tried
 };
 
 /// From good to bad.
@@ -51,7 +51,7 @@ enum class EstimateOutcome {
   succeeded,      ///< guide released, converged, certified minimum
   misfit,         ///< as succeeded, but an outline is missed by more than its noise
   not_converged,  ///< iterations or solves ran out, or the last steps all left the branch
-  branch_lost,    ///< releasing the guide left the branch
+  branch_lost,    ///< no drape with the nodes observed was left when the guide was released
   no_start,       ///< no guided drape was found for the first parameters
 };
 std::string_view name(EstimateOutcome outcome);

@@ -18,6 +18,8 @@ class FitObjective {
   /// Whether the last new u had no value. A minimiser that shrinks its steps because of this has
   /// not converged.
   virtual bool refused() const = 0;
+  /// Whether a new u next to one that has a value had none: there is nothing to step to.
+  virtual bool at_edge() const = 0;
 };
 
 }  // namespace drape

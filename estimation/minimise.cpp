@@ -75,27 +75,35 @@ MatX gauss_newton_scaling(FitObjective& objective, const VecX& u) {
   return normal.llt().matrixU().solve(MatX::Identity(n, n));
 }
 
-class StopAtSufficientCost : public ceres::IterationCallback {
+/// Where the cost is far inside the noise, and where the objective has no value next to the state
+/// at hand: Ceres would halve its steps towards the edge again and again.
+class StopEarly : public ceres::IterationCallback {
  public:
-  explicit StopAtSufficientCost(double sufficient) : sufficient_(sufficient) {}
+  StopEarly(const FitObjective& objective, double sufficient)
+      : objective_(objective), sufficient_(sufficient) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    return summary.cost <= sufficient_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                       : ceres::SOLVER_CONTINUE;
+    return summary.cost <= sufficient_ || objective_.at_edge()
+               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+               : ceres::SOLVER_CONTINUE;
   }
 
  private:
+  const FitObjective& objective_;
   double sufficient_;
 };
 
 /// What both of Ceres' solvers report.
 template <typename Summary>
-void keep(const Summary& summary, const FitObjective& objective, Minimum& minimum) {
+void keep(const Summary& summary, const FitObjective& objective, const MinimiseOptions& options,
+          Minimum& minimum) {
   minimum.initial_cost = summary.initial_cost;
   minimum.cost = summary.final_cost;
   minimum.iterations = static_cast<int>(summary.iterations.size());
-  minimum.converged = summary.termination_type == ceres::USER_SUCCESS ||
-                      (summary.termination_type == ceres::CONVERGENCE && !objective.refused());
-  minimum.message = summary.message;
+  const bool sufficient = minimum.cost <= options.sufficient_cost;
+  const bool at_edge = objective.at_edge() && !sufficient;
+  minimum.converged = sufficient || (summary.termination_type == ceres::CONVERGENCE && !at_edge &&
+                                     !objective.refused());
+  minimum.message = at_edge ? "a branch of drapes ends at the last state" : summary.message;
 }
 
 Minimum levenberg_marquardt(FitObjective& objective, const VecX& u,
@@ -116,13 +124,13 @@ Minimum levenberg_marquardt(FitObjective& objective, const VecX& u,
   ceres_options.gradient_tolerance = 1e-12;
   ceres_options.initial_trust_region_radius = 1e2;
   ceres_options.max_num_consecutive_invalid_steps = 8;
-  StopAtSufficientCost stop(options.sufficient_cost);
+  StopEarly stop(objective, options.sufficient_cost);
   ceres_options.callbacks.push_back(&stop);
   ceres_options.logging_type = ceres::SILENT;
   ceres_options.num_threads = 1;
   ceres::Solver::Summary summary;
   ceres::Solve(ceres_options, &problem, &summary);
-  keep(summary, objective, minimum);
+  keep(summary, objective, options, minimum);
   return minimum;
 }
 
@@ -139,13 +147,13 @@ Minimum bfgs(FitObjective& objective, const VecX& u, const MinimiseOptions& opti
   ceres_options.function_tolerance = options.function_tolerance;
   ceres_options.parameter_tolerance = options.parameter_tolerance;
   ceres_options.gradient_tolerance = 1e-12;
-  StopAtSufficientCost stop(options.sufficient_cost);
+  StopEarly stop(objective, options.sufficient_cost);
   ceres_options.callbacks.push_back(&stop);
   ceres_options.logging_type = ceres::SILENT;
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(ceres_options, problem, v.data(), &summary);
   minimum.u = cost->unknowns_at(v.data());
-  keep(summary, objective, minimum);
+  keep(summary, objective, options, minimum);
   return minimum;
 }
 

@@ -24,7 +24,7 @@ struct Minimum {
   double initial_cost = 0, cost = 0;
   int iterations = 0;
   bool converged = false;  ///< a tolerance was met, and not for want of drapes to step to
-  std::string message;     ///< Ceres' own words
+  std::string message;     ///< Ceres' own words, but at an edge
 };
 
 /// Minimises the objective from u, where it must have a value.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -66,6 +67,13 @@ void PictureMisfit::start_from(const Potential& potential, BranchPoint point,
   continuation_ = continuation;
   known_.clear();
   known_.push_back(std::move(point));
+}
+
+double PictureMisfit::distance_from_known(const VecX& z) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const BranchPoint& known : known_)
+    least = std::min(least, (known.z - z).cwiseAbs().maxCoeff());
+  return least;
 }
 
 const BranchPoint* PictureMisfit::drape_at(const ParameterSpace& space, const VecX& z,

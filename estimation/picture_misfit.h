@@ -41,6 +41,9 @@ class PictureMisfit {
   void start_from(const Potential& potential, BranchPoint point,
                   const ContinuationOptions& continuation);
 
+  /// Largest change of an unknown from the nearest drape that is known to z.
+  double distance_from_known(const VecX& z) const;
+
   /// The drape at z; nothing where the branch is lost, or where it is not known and `may_solve` is
   /// false. Valid until the next call.
   const BranchPoint* drape_at(const ParameterSpace& space, const VecX& z, bool may_solve);

@@ -47,6 +47,7 @@ class Tracing final : public FitObjective {
     return true;
   }
   bool refused() const override { return spent() || objective_.refused(); }
+  bool at_edge() const override { return objective_.at_edge(); }
 
   bool spent() const { return thread_cpu_seconds() - begin_ > budget_; }
   std::vector<FitMoment> moments() && { return std::move(moments_); }

@@ -69,6 +69,7 @@ class DifferencedObjective final : public FitObjective {
   bool residuals_at(const VecX& u, VecX& r, MatX* jacobian) override;
   bool cost_at(const VecX& u, double& cost, VecX* gradient) override;
   bool refused() const override { return exact_.refused(); }
+  bool at_edge() const override { return exact_.at_edge(); }
   /// Beyond those of the exact objective.
   int solves() const { return solves_; }
 

@@ -206,7 +206,7 @@ struct PhotographSettings {
   double areal_density = 0;  ///< [kg/m^2]; 0: not given
   Structure structure = Structure::woven;
   std::string type, composition;  ///< of the tag, as people write them; empty: none
-  double outline_noise = 3e-3;    ///< [m]; free drapes miss photographs by 1.7 to 4.3 mm
+  double outline_noise = 2e-3;    ///< [m]; free drapes miss photographs by about 3 mm
   std::vector<double> warp_angles{0, 45, 90, 135};  ///< [deg]
   double warp_angle_sd = 25;                        ///< [deg]; 0: known
   double scale_log_sd = 0.005;                      ///< 0: known

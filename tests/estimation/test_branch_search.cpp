@@ -90,6 +90,13 @@ TEST(BranchSearch, ANeighbourIsLeftForTheBranchObserved) {
     EXPECT_NEAR(moved.fabric[k] / truth[k], 1, 0.02) << name(k);
 }
 
+TEST(BranchSearch, WhatIsExplainedMayStillBeSearched) {
+  EXPECT_TRUE(explains_well(1.1));
+  EXPECT_FALSE(explains_well(1.3));
+  EXPECT_TRUE(explains(1.3));
+  EXPECT_FALSE(explains(1.6));
+}
+
 TEST(BranchSearch, EveryMoveEndsOnAFreeEquilibriumOrSaysThatItHasNone) {
   const Picture picture = stiff_warp().picture();
   const EstimateOptions options;

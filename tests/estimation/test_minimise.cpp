@@ -1,0 +1,72 @@
+// Minimisers on an objective whose values end at an edge, as a branch of drapes ends at a fold.
+#include "estimation/minimise.h"
+
+#include <gtest/gtest.h>
+
+namespace drape {
+namespace {
+
+/// r = u - target, which has a value up to the edge only.
+class Cliff final : public FitObjective {
+ public:
+  Cliff(double target, double edge) : target_(target), edge_(edge) {}
+  int unknowns() const override { return 1; }
+  int residuals() const override { return 1; }
+  bool residuals_at(const VecX& u, VecX& r, MatX* jacobian) override {
+    ++evaluations;
+    refused_ = u[0] > edge_;
+    if (refused_) {
+      at_edge_ = at_edge_ || u[0] - last_ < 2e-3;
+      return false;
+    }
+    last_ = u[0];
+    r = VecX::Constant(1, u[0] - target_);
+    if (jacobian != nullptr) jacobian->setOnes(1, 1);
+    return true;
+  }
+  bool cost_at(const VecX& u, double& cost, VecX* gradient) override {
+    VecX r;
+    if (!residuals_at(u, r, nullptr)) return false;
+    cost = 0.5 * r.squaredNorm();
+    if (gradient != nullptr) *gradient = r;
+    return true;
+  }
+  bool refused() const override { return refused_; }
+  bool at_edge() const override { return at_edge_; }
+
+  int evaluations = 0;
+
+ private:
+  double target_, edge_, last_ = 0;
+  bool refused_ = false, at_edge_ = false;
+};
+
+MinimiseOptions within(double bound, FitMethod method = FitMethod::levenberg_marquardt) {
+  MinimiseOptions options;
+  options.method = method;
+  options.lower = VecX::Constant(1, -bound);
+  options.upper = VecX::Constant(1, bound);
+  return options;
+}
+
+TEST(Minimise, FindsAMinimumInside) {
+  for (const FitMethod method : {FitMethod::levenberg_marquardt, FitMethod::bfgs}) {
+    Cliff objective(0.3, 10);
+    const Minimum minimum = minimise(objective, VecX::Zero(1), within(20, method));
+    EXPECT_TRUE(minimum.converged) << minimum.message;
+    EXPECT_NEAR(minimum.u[0], 0.3, 5e-3);  // the cost that suffices is 1e-5
+  }
+}
+
+TEST(Minimise, EndsAtAnEdgeAndSaysSo) {
+  Cliff objective(1, 0.6);
+  const Minimum minimum = minimise(objective, VecX::Zero(1), within(20));
+  EXPECT_FALSE(minimum.converged);
+  EXPECT_TRUE(objective.at_edge());
+  EXPECT_NEAR(minimum.u[0], 0.6, 4e-3);  // two small steps
+  EXPECT_NE(minimum.message.find("a branch of drapes ends"), std::string::npos) << minimum.message;
+  EXPECT_LT(objective.evaluations, 40);
+}
+
+}  // namespace
+}  // namespace drape
