@@ -1,6 +1,6 @@
 #include "estimation/branch_search.h"
 
-#include <tuple>
+#include <utility>
 
 #include "estimation/staged_fit.h"
 
@@ -51,7 +51,7 @@ bool explains(double miss) { return miss <= kExplained; }
 bool explains_well(double miss) { return miss <= kWellExplained; }
 
 bool is_better(EstimateOutcome outcome, double miss, EstimateOutcome than, double than_miss) {
-  return std::tuple(outcome, miss) < std::tuple(than, than_miss);
+  return std::pair(standing(outcome), miss) < std::pair(standing(than), than_miss);
 }
 
 }  // namespace drape

@@ -42,7 +42,7 @@ bool explains(double miss);
 /// Whether neighbours need not be tried: up to 1.2, where such noise stays with 94 %.
 bool explains_well(double miss);
 
-/// Whether an outcome with its miss is to be preferred to another: the better outcome, then the
+/// Whether an outcome with its miss is to be preferred to another: the better standing, then the
 /// smaller miss.
 bool is_better(EstimateOutcome outcome, double miss, EstimateOutcome than, double than_miss);
 

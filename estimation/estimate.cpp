@@ -184,6 +184,21 @@ std::string_view name(EstimateOutcome outcome) {
   return "unknown";
 }
 
+int standing(EstimateOutcome outcome) {
+  switch (outcome) {
+    case EstimateOutcome::succeeded:
+      return 0;
+    case EstimateOutcome::misfit:
+    case EstimateOutcome::not_converged:
+      return 1;
+    case EstimateOutcome::branch_lost:
+      return 2;
+    case EstimateOutcome::no_start:
+      return 3;
+  }
+  return 4;
+}
+
 Estimate estimate(const std::vector<Picture>& pictures, const Fabric& start,
                   const EstimateOptions& options) {
   if (pictures.empty()) throw std::invalid_argument("estimate: no picture of the fabric is given");

@@ -46,15 +46,17 @@ struct EstimateOptions {
   int max_moves = 50;     ///< to neighbouring drapes where a misfit remains; 0: none is tried
 };
 
-/// From good to bad.
 enum class EstimateOutcome {
   succeeded,      ///< guide released, converged, certified minimum
   misfit,         ///< as succeeded, but an outline is missed by more than its noise
-  not_converged,  ///< iterations or solves ran out, or the last steps all left the branch
+  not_converged,  ///< iterations or solves ran out, or the branch ends at the last state
   branch_lost,    ///< no drape with the nodes observed was left when the guide was released
   no_start,       ///< no guided drape was found for the first parameters
 };
 std::string_view name(EstimateOutcome outcome);
+/// Outcomes from good (0) to bad; a misfit and a fit that has not converged are free drapes alike,
+/// and what they miss says which is better.
+int standing(EstimateOutcome outcome);
 
 /// What became of one picture.
 struct PictureEstimate {

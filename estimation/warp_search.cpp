@@ -1,14 +1,15 @@
 #include "estimation/warp_search.h"
 
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 namespace drape {
 namespace {
 
 /// Less is better: first a fit that ended well, then a higher posterior.
-auto rank(const Estimate& estimate) { return std::make_tuple(estimate.outcome, estimate.cost); }
+std::pair<int, double> rank(const Estimate& estimate) {
+  return std::pair(standing(estimate.outcome), estimate.cost);
+}
 
 }  // namespace
 

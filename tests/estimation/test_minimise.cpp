@@ -65,7 +65,7 @@ TEST(Minimise, EndsAtAnEdgeAndSaysSo) {
   EXPECT_TRUE(objective.at_edge());
   EXPECT_NEAR(minimum.u[0], 0.6, 4e-3);  // two small steps
   EXPECT_NE(minimum.message.find("a branch of drapes ends"), std::string::npos) << minimum.message;
-  EXPECT_LT(objective.evaluations, 40);
+  EXPECT_LT(objective.evaluations, 60);  // a dozen halvings a step
 }
 
 }  // namespace

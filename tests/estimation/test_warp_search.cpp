@@ -28,7 +28,8 @@ Picture turned_picture() {
   const Potential potential(disc(300), anisotropic_fabric(), {}, kCusick.gravity);
   Picture picture{potential, kCusick, {}, drape_by_ramp(potential, 1)};
   const Outline outline = trace_outline(potential.mesh(), kCusick, picture.start_state->x);
-  picture.seen.profile = radial_profile(Placement{Vec2::Zero(), kTrueAngle, 0}.seen(outline.points)).radius;
+  picture.seen.profile =
+      radial_profile(Placement{Vec2::Zero(), kTrueAngle, 0}.seen(outline.points)).radius;
   picture.seen.weft_angle_sd = 0.4;
   return picture;
 }
