@@ -5,9 +5,9 @@
 // rim towards the observed outline, and the fit itself runs on guided drapes while the guides of
 // all pictures are released together (kappa = 1, 0.1, 0.01, 0). Exact data have zero residual at
 // the truth for every kappa, so the guide biases nothing; without it a fit from elsewhere ends on a
-// neighbouring branch. Where a misfit above the noise remains, neighbours of the drape are tried
-// (branch_search.h). Only a fit counts that ends with kappa = 0 on a certified minimum, with the
-// nodes observed, and explains the outlines.
+// neighbouring branch. Where a misfit above the noise remains, or the nodes observed are lost with
+// the guide, neighbours of the drape are tried (branch_search.h). Only a fit counts that ends with
+// kappa = 0 on a certified minimum, with the nodes observed, and explains the outlines.
 //
 // Whether the support acts (core/contact.h) is decided once, at the guided start, and held from
 // there on: the loss stays continuous. The last state says whether it would have decided otherwise.
