@@ -85,8 +85,9 @@ const BranchPoint* DrapeObjective::drape_at(size_t i, const VecX& u) {
   const VecX z = u.head(space_.size());
   const double step = misfits_[i].distance_from_known(z);
   const BranchPoint* drape = misfits_[i].drape_at(space_, z, solves() < max_solves_);
-  if (drape == nullptr || misfits_[i].work().solves > before) refused_ = drape == nullptr;
-  if (drape == nullptr && step < kSmallStep) at_edge_ = true;
+  const bool solved = misfits_[i].work().solves > before;
+  if (drape == nullptr || solved) refused_ = drape == nullptr;
+  if (drape == nullptr && solved && step < kSmallStep) at_edge_ = true;
   return drape;
 }
 

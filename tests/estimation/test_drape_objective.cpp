@@ -276,6 +276,9 @@ TEST(DrapeObjective, SpentSolvesAreRefused) {
   EXPECT_EQ(objective.drape_at(1, other), nullptr);
   EXPECT_NE(objective.drape_at(0, other), nullptr);
   EXPECT_FALSE(objective.cost_at(other, value, &gradient));
+  const VecX next_by = near.array() + 1e-4;
+  EXPECT_FALSE(objective.residuals_at(next_by, r, nullptr));
+  EXPECT_FALSE(objective.at_edge());                      // not a branch that ends
   EXPECT_TRUE(objective.residuals_at(near, r, nullptr));  // still known
   EXPECT_EQ(objective.solves(), 3);
 }
