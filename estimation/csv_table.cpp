@@ -1,10 +1,12 @@
 #include "estimation/csv_table.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 namespace drape {
 
@@ -39,6 +41,63 @@ std::string shown(double value) {
   std::array<char, 32> buffer{};
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), result.ptr};
+}
+
+double number_in_range(std::string_view column, std::string_view cell, double low, double high,
+                       std::string_view unit) {
+  const std::optional<double> value = number(cell);
+  if (value && *value >= low && *value <= high) return *value;
+  throw std::invalid_argument(std::string(column) + " " + in_quotes(cell) +
+                              "; expected a number from " + shown(low) + " to " + shown(high) +
+                              (unit == "1" ? "" : " " + std::string(unit)));
+}
+
+namespace {
+
+std::string listed(const std::vector<std::string_view>& names) {
+  std::string list;
+  for (const std::string_view name : names) list += (list.empty() ? "" : ",") + std::string(name);
+  return list;
+}
+
+}  // namespace
+
+CsvColumns::CsvColumns(std::vector<std::string_view> known, std::vector<std::string_view> required)
+    : known_(std::move(known)), required_(std::move(required)) {}
+
+std::string CsvColumns::expected() const { return "columns out of " + listed(known_); }
+
+void CsvColumns::take_header(std::string_view line) {
+  for (const std::string_view cell : split(line, ',')) {
+    if (std::find(known_.begin(), known_.end(), cell) == known_.end())
+      throw std::invalid_argument("unknown column " + in_quotes(cell) + "; expected " + expected());
+    if (place(cell) < names_.size())
+      throw std::invalid_argument("the column " + in_quotes(cell) + " occurs twice");
+    names_.emplace_back(cell);
+  }
+  std::vector<std::string_view> missing;
+  for (const std::string_view column : required_)
+    if (place(column) == names_.size()) missing.push_back(column);
+  if (!missing.empty())
+    throw std::invalid_argument("the header lacks " + listed(missing) + "; expected " + expected());
+}
+
+std::vector<std::string_view> CsvColumns::cells_of(std::string_view line) const {
+  std::vector<std::string_view> cells = split(line, ',');
+  if (cells.size() != names_.size())
+    throw std::invalid_argument(std::to_string(cells.size()) + " columns; the header has " +
+                                std::to_string(names_.size()));
+  return cells;
+}
+
+std::optional<std::string_view> CsvColumns::cell(const std::vector<std::string_view>& cells,
+                                                 std::string_view column) const {
+  const size_t at = place(column);
+  return at < cells.size() ? std::optional(cells[at]) : std::nullopt;
+}
+
+size_t CsvColumns::place(std::string_view column) const {
+  return static_cast<size_t>(std::find(names_.begin(), names_.end(), column) - names_.begin());
 }
 
 void read_csv(const std::filesystem::path& file, const std::string& expected,

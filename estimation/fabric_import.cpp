@@ -1,9 +1,9 @@
 #include "estimation/fabric_import.h"
 
-#include <algorithm>
 #include <array>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "estimation/csv_table.h"
 
@@ -36,52 +36,23 @@ constexpr std::array kColumns = std::to_array<ImportColumn>({
     {"fBvLR", Parameter::t_bv, "1", 1, 0, 1, false},
     {"fBhLR", Parameter::t_bh, "1", 1, 0, 1, false},
 });
-constexpr std::array<std::string_view, 5> kTexts{"id", "category", "subcategory", "type",
-                                                 "composition_percent"};
-
-std::string listed(std::string list, std::string_view name) {
-  return (list.empty() ? "" : list + ",") + std::string(name);
-}
-
-std::string expected_header() {
-  std::string names;
-  for (const std::string_view text : kTexts) names = listed(names, text);
-  for (const ImportColumn& column : kColumns) names = listed(names, column.name);
-  return "columns out of " + names;
+CsvColumns columns_of_table() {
+  std::vector<std::string_view> known{"id", "category", "subcategory", "type",
+                                      "composition_percent"};
+  std::vector<std::string_view> required{"id"};
+  for (const ImportColumn& column : kColumns) {
+    known.push_back(column.name);
+    if (column.required) required.push_back(column.name);
+  }
+  return {std::move(known), std::move(required)};
 }
 
 class Importer {
  public:
-  void header(std::string_view line) {
-    for (const std::string_view cell : split(line, ',')) {
-      const bool known = std::find(kTexts.begin(), kTexts.end(), cell) != kTexts.end() ||
-                         std::any_of(kColumns.begin(), kColumns.end(),
-                                     [cell](const ImportColumn& c) { return c.name == cell; });
-      if (!known)
-        throw std::invalid_argument("unknown column " + in_quotes(cell) + "; expected " +
-                                    expected_header());
-      if (place(cell) < names_.size())
-        throw std::invalid_argument("the column " + in_quotes(cell) + " occurs twice");
-      names_.emplace_back(cell);
-    }
-    std::string missing;
-    if (place("id") == names_.size()) missing = "id";
-    for (const ImportColumn& column : kColumns)
-      if (column.required && place(column.name) == names_.size())
-        missing = listed(missing, column.name);
-    if (!missing.empty())
-      throw std::invalid_argument("the header lacks " + missing + "; expected " +
-                                  expected_header());
-  }
-
   void row(std::string_view line) {
-    const std::vector<std::string_view> cells = split(line, ',');
-    if (cells.size() != names_.size())
-      throw std::invalid_argument(std::to_string(cells.size()) + " columns; the header has " +
-                                  std::to_string(names_.size()));
-    const auto text = [&](std::string_view name) {
-      const size_t at = place(name);
-      return at < cells.size() ? std::string(cells[at]) : std::string();
+    const std::vector<std::string_view> cells = columns.cells_of(line);
+    const auto text = [&](std::string_view column) {
+      return std::string(columns.cell(cells, column).value_or(std::string_view()));
     };
     TaggedFabric imported;
     Tag& tag = imported.tag;
@@ -98,33 +69,19 @@ class Importer {
 
     for (Parameter p : {Parameter::s_bu, Parameter::s_bv, Parameter::s_bh})
       imported.fabric[p] = 0.8;
-    for (const ImportColumn& column : kColumns) {
-      const size_t at = place(column.name);
-      if (at < cells.size())
-        imported.fabric[column.parameter] = column.si_factor * checked(column, cells[at]);
-    }
+    for (const ImportColumn& column : kColumns)
+      if (const auto cell = columns.cell(cells, column.name))
+        imported.fabric[column.parameter] =
+            column.si_factor *
+            number_in_range(column.name, *cell, column.low, column.high, column.unit);
     tag.areal_density = imported.fabric.areal_density;
     fabrics.push_back(std::move(imported));
   }
 
+  CsvColumns columns = columns_of_table();
   std::vector<TaggedFabric> fabrics;
 
  private:
-  /// names_.size() if there is none.
-  size_t place(std::string_view name) const {
-    return static_cast<size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
-  }
-
-  static double checked(const ImportColumn& column, std::string_view cell) {
-    const std::optional<double> value = number(cell);
-    if (value && *value >= column.low && *value <= column.high) return *value;
-    throw std::invalid_argument(std::string(column.name) + " " + in_quotes(cell) +
-                                "; expected a number from " + shown(column.low) + " to " +
-                                shown(column.high) +
-                                (column.unit == "1" ? "" : " " + std::string(column.unit)));
-  }
-
-  std::vector<std::string> names_;
   std::set<std::string> ids_;
 };
 
@@ -133,7 +90,8 @@ class Importer {
 std::vector<TaggedFabric> read_fabric_table(const std::filesystem::path& file) {
   Importer importer;
   read_csv(
-      file, expected_header(), [&](std::string_view line) { importer.header(line); },
+      file, importer.columns.expected(),
+      [&](std::string_view line) { importer.columns.take_header(line); },
       [&](std::string_view line) { importer.row(line); });
   return std::move(importer.fabrics);
 }

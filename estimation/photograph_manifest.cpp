@@ -1,7 +1,6 @@
 #include "estimation/photograph_manifest.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <stdexcept>
 #include <string_view>
@@ -11,23 +10,6 @@
 
 namespace drape {
 namespace {
-
-constexpr std::array<std::string_view, 8> kColumns{"id",
-                                                   "file",
-                                                   "mm_per_pixel",
-                                                   "areal_density_gsm",
-                                                   "specimen_radius_mm",
-                                                   "warp_angle_deg",
-                                                   "type",
-                                                   "composition_percent"};
-constexpr size_t kRequired = 4;  // the first of them
-
-std::string expected_header() {
-  std::string names = "columns out of ";
-  for (const std::string_view column : kColumns)
-    names += (column == kColumns.front() ? "" : ",") + std::string(column);
-  return names;
-}
 
 /// The id becomes the name of a folder.
 void validate_id(std::string_view id) {
@@ -43,29 +25,14 @@ class Manifest {
  public:
   explicit Manifest(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  void header(std::string_view line) {
-    for (const std::string_view cell : split(line, ',')) {
-      if (std::find(kColumns.begin(), kColumns.end(), cell) == kColumns.end())
-        throw std::invalid_argument("unknown column " + in_quotes(cell) + "; expected " +
-                                    expected_header());
-      if (place(cell) < names_.size())
-        throw std::invalid_argument("the column " + in_quotes(cell) + " occurs twice");
-      names_.emplace_back(cell);
-    }
-    for (size_t i = 0; i < kRequired; ++i)
-      if (place(kColumns[i]) == names_.size())
-        throw std::invalid_argument("the header lacks " + std::string(kColumns[i]) + "; expected " +
-                                    expected_header());
-  }
-
   void row(std::string_view line) {
-    const std::vector<std::string_view> cells = split(line, ',');
-    if (cells.size() != names_.size())
-      throw std::invalid_argument(std::to_string(cells.size()) + " columns; the header has " +
-                                  std::to_string(names_.size()));
-    const auto text = [&](std::string_view name) {
-      const size_t at = place(name);
-      return at < cells.size() ? cells[at] : std::string_view();
+    const std::vector<std::string_view> cells = columns.cells_of(line);
+    const auto text = [&](std::string_view column) {
+      return columns.cell(cells, column).value_or(std::string_view());
+    };
+    const auto in_range = [&](std::string_view column, double low, double high,
+                              std::string_view unit) {
+      return number_in_range(column, text(column), low, high, unit);
     };
     PhotographedFabric read;
     read.id = text("id");
@@ -74,35 +41,23 @@ class Manifest {
     read.composition = text("composition_percent");
     if (read.type.empty() != read.composition.empty())
       throw std::invalid_argument("a tag has a type and a composition; give both or neither");
-    read.mm_per_pixel = in_range("mm_per_pixel", text("mm_per_pixel"), 1e-3, 100, "mm");
-    read.areal_density =
-        1e-3 * in_range("areal_density_gsm", text("areal_density_gsm"), 10, 3000, "g/m^2");
-    if (const std::string_view angle = text("warp_angle_deg"); !angle.empty())
-      read.warp_angle_deg = in_range("warp_angle_deg", angle, -360, 360, "degrees");
-    if (const std::string_view radius = text("specimen_radius_mm"); !radius.empty())
-      read.specimen_radius_mm = {in_range("specimen_radius_mm", radius, 10, 1000, "mm")};
+    read.mm_per_pixel = in_range("mm_per_pixel", 1e-3, 100, "mm");
+    read.areal_density = 1e-3 * in_range("areal_density_gsm", 10, 3000, "g/m^2");
+    if (!text("warp_angle_deg").empty())
+      read.warp_angle_deg = in_range("warp_angle_deg", -360, 360, "degrees");
+    if (!text("specimen_radius_mm").empty())
+      read.specimen_radius_mm = {in_range("specimen_radius_mm", 10, 1000, "mm")};
     if (text("file").empty()) throw std::invalid_argument("no file of a picture");
     read.files = {folder_ / text("file")};
     add(std::move(read));
   }
 
+  CsvColumns columns{{"id", "file", "mm_per_pixel", "areal_density_gsm", "specimen_radius_mm",
+                      "warp_angle_deg", "type", "composition_percent"},
+                     {"id", "file", "mm_per_pixel", "areal_density_gsm"}};
   std::vector<PhotographedFabric> fabrics;
 
  private:
-  /// names_.size() if there is none.
-  size_t place(std::string_view name) const {
-    return static_cast<size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
-  }
-
-  static double in_range(std::string_view name, std::string_view cell, double low, double high,
-                         std::string_view unit) {
-    const std::optional<double> value = number(cell);
-    if (value && *value >= low && *value <= high) return *value;
-    throw std::invalid_argument(std::string(name) + " " + in_quotes(cell) +
-                                "; expected a number from " + shown(low) + " to " + shown(high) +
-                                " " + std::string(unit));
-  }
-
   void add(PhotographedFabric read) {
     const auto known = std::find_if(fabrics.begin(), fabrics.end(),
                                     [&](const auto& fabric) { return fabric.id == read.id; });
@@ -133,7 +88,6 @@ class Manifest {
   }
 
   std::filesystem::path folder_;
-  std::vector<std::string> names_;
 };
 
 }  // namespace
@@ -141,7 +95,8 @@ class Manifest {
 std::vector<PhotographedFabric> read_photograph_manifest(const std::filesystem::path& file) {
   Manifest manifest(file.parent_path());
   read_csv(
-      file, expected_header(), [&](std::string_view line) { manifest.header(line); },
+      file, manifest.columns.expected(),
+      [&](std::string_view line) { manifest.columns.take_header(line); },
       [&](std::string_view line) { manifest.row(line); });
   return std::move(manifest.fabrics);
 }

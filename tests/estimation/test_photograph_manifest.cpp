@@ -1,34 +1,12 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "estimation/photograph_manifest.h"
+#include "tests/support/table_file.h"
 
 namespace drape {
 namespace {
 
-class PhotographManifest : public testing::Test {
- protected:
-  void TearDown() override { std::filesystem::remove(file_); }
-
-  void write(const std::string& text) const { std::ofstream(file_) << text; }
-
-  void expect_refused(const std::string& text, const std::string& message) const {
-    write(text);
-    try {
-      read_photograph_manifest(file_);
-      ADD_FAILURE() << "accepted: " << text;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find(file_.string() + message), std::string::npos)
-          << error.what();
-    }
-  }
-
-  const std::filesystem::path file_ =
-      std::filesystem::path(testing::TempDir()) / ("photos_" + std::to_string(getpid()) + ".csv");
-};
+using PhotographManifest = test::TableFile<read_photograph_manifest>;
 
 const std::string kHeader = "id,file,mm_per_pixel,areal_density_gsm\n";
 

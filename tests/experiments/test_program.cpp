@@ -120,7 +120,8 @@ TEST_F(Program, BadConfig) {
 }
 
 TEST_F(Program, EstimateNeedsItsInput) {
-  expect_refused("estimate --out out", "needs --photo FILE, --manifest FILE, --dataset FILE or a CONFIG");
+  expect_refused("estimate --out out",
+                 "needs --photo FILE, --manifest FILE, --dataset FILE or a CONFIG");
   expect_refused("estimate a.toml --out out", "not \"drape\"");
   expect_refused("estimate --photo none.png --mm-per-pixel 1.39 --density .2 --out out",
                  "--photo: photograph.files: there is no file");
