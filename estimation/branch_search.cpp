@@ -7,7 +7,7 @@
 namespace drape {
 namespace {
 
-constexpr double kExplained = 1.5, kWellExplained = 1.2;  // of the noise
+constexpr double kExplained = 1.3, kWellExplained = 1.1;  // of the noise
 constexpr int kFineHarmonics = 30;
 constexpr double kStiffer = 10;
 

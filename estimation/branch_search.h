@@ -37,9 +37,10 @@ using Move = std::function<bool(StagedFit&)>;
 std::vector<Move> neighbour_moves(int harmonics);
 
 /// Whether an outline whose rms miss is `miss` standard deviations of a radius is explained: up to
-/// 1.5. Noise with 31 independent values (15 harmonics) stays below with 99.99 %.
+/// 1.3. Noise with 31 independent values (15 harmonics), four of them fitted, stays below with
+/// 99.8 %.
 bool explains(double miss);
-/// Whether neighbours need not be tried: up to 1.2, where such noise stays with 94 %.
+/// Whether neighbours need not be tried: up to 1.1, where such noise stays with 91 %.
 bool explains_well(double miss);
 
 /// Whether an outcome with its miss is to be preferred to another: the better standing, then the

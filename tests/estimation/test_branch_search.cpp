@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/coarse_level.h"
 #include "core/drape_protocol.h"
@@ -22,9 +23,16 @@ TEST(BranchSearch, TheFirstStartIsTheOneAskedFor) {
   EXPECT_EQ(guided_starts({}, 24).front().kappa, 1);
 }
 
-TEST(BranchSearch, AnOutlineIsExplainedUpToOneAndAHalfStandardDeviations) {
-  EXPECT_TRUE(explains(1.49));
-  EXPECT_FALSE(explains(1.51));
+TEST(BranchSearch, AnOutlineIsExplainedWhereNoiseWouldMissAsMuch) {
+  // chi-square of 27 degrees of freedom, 31 values less four that are fitted: Wilson and Hilferty
+  const auto miss_at = [](double deviations) {
+    const double share = 2. / (9 * 27);
+    return std::sqrt(27. / 31 * std::pow(1 - share + deviations * std::sqrt(share), 3));
+  };
+  EXPECT_TRUE(explains(miss_at(2.576)));        // 99.5 %
+  EXPECT_FALSE(explains(miss_at(3.719)));       // 99.99 %
+  EXPECT_TRUE(explains_well(miss_at(1.282)));   // 90 %
+  EXPECT_FALSE(explains_well(miss_at(1.645)));  // 95 %
 }
 
 TEST(BranchSearch, OutcomeCountsBeforeMisfit) {
@@ -93,10 +101,8 @@ TEST(BranchSearch, ANeighbourIsLeftForTheBranchObserved) {
 }
 
 TEST(BranchSearch, WhatIsExplainedMayStillBeSearched) {
-  EXPECT_TRUE(explains_well(1.1));
-  EXPECT_FALSE(explains_well(1.3));
-  EXPECT_TRUE(explains(1.3));
-  EXPECT_FALSE(explains(1.6));
+  EXPECT_FALSE(explains_well(1.2));
+  EXPECT_TRUE(explains(1.2));
 }
 
 TEST(BranchSearch, EveryMoveEndsOnAFreeEquilibriumOrSaysThatItHasNone) {
