@@ -1,5 +1,6 @@
 #include "core/guided.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -7,6 +8,11 @@
 #include "core/drape_protocol.h"
 
 namespace drape {
+namespace {
+
+constexpr double kLooseTolerance = 0.1;  // residual under a guide that is to be released
+
+}  // namespace
 
 Equilibrium solve_under_guide(const Potential& potential, const Scene& scene, const Guide& guide,
                               const EquilibriumOptions& options) {
@@ -34,8 +40,11 @@ Equilibrium drape_guided(const Potential& potential, const Scene& scene, Guide g
                          const std::vector<double>& kappas, const EquilibriumOptions& options) {
   if (kappas.empty())
     throw std::invalid_argument("guided drape: no strength of the guide is given");
+  EquilibriumOptions held = options;
+  held.tolerance = std::max(kLooseTolerance, options.tolerance);
+  held.certify = false;
   guide.kappa = kappas.front();
-  Equilibrium result = solve_under_guide(potential, scene, guide, options);
+  Equilibrium result = solve_under_guide(potential, scene, guide, held);
   for (size_t i = 1; i <= kappas.size() && result.converged(); ++i) {
     Potential released = potential;
     released.set_guide(std::nullopt);
@@ -43,7 +52,7 @@ Equilibrium drape_guided(const Potential& potential, const Scene& scene, Guide g
       guide.kappa = kappas[i];
       released.set_guide(guide);
     }
-    Equilibrium next = solve_equilibrium(released, result.x, options);
+    Equilibrium next = solve_equilibrium(released, result.x, i < kappas.size() ? held : options);
     next.add_work_of(result);
     next.protocol = std::move(result.protocol);
     result = std::move(next);

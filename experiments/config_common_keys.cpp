@@ -97,6 +97,10 @@ void add_common_keys(ConfigKeyList& add) {
   add("start", "guide_harmonics", "", {1, 180, true},
       "guided: harmonics of the outline's profile that start and guide follow.",
       DRAPE_MEMBER(start.guide_harmonics));
+  add("start", "settled", "", kAny,
+      "Follow the drape's outline to the drape it leads to, until one is its own: without vertices "
+      "popped where they do not belong.",
+      DRAPE_MEMBER(start.settled));
   add("start", "ramps", "", kNotNegative, "ensemble: gravity ramps, each with other noise.",
       DRAPE_MEMBER(start.ensemble.ramps));
   add("start", "fewest_lobes", "", {1, 60, true}, "ensemble: folded starts from this many lobes.",

@@ -3,6 +3,7 @@
 #include <exception>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "core/coarse_level.h"
@@ -11,6 +12,7 @@
 #include "core/lowering.h"
 #include "core/outline.h"
 #include "core/profile.h"
+#include "core/settled.h"
 #include "core/version.h"
 #include "experiments/config_text.h"
 #include "experiments/start_outline.h"
@@ -54,7 +56,7 @@ EquilibriumOptions equilibrium_options(const Settings& settings) {
 
 namespace {
 
-Equilibrium drape_by_protocol(const Settings& settings, const Potential& potential) {
+Equilibrium first_drape(const Settings& settings, const Potential& potential) {
   const StartSettings& start = settings.start;
   const EquilibriumOptions options = equilibrium_options(settings);
   switch (start.protocol) {
@@ -75,6 +77,12 @@ Equilibrium drape_by_protocol(const Settings& settings, const Potential& potenti
       return lowest_of_ensemble(potential, settings.scene, ensemble_options(settings), options);
   }
   throw std::logic_error("a start protocol without a function");
+}
+
+Equilibrium drape_by_protocol(const Settings& settings, const Potential& potential) {
+  Equilibrium drape = first_drape(settings, potential);
+  if (!settings.start.settled) return drape;
+  return settle(potential, settings.scene, std::move(drape), equilibrium_options(settings));
 }
 
 }  // namespace

@@ -87,6 +87,7 @@ struct StartSettings {
   int record = 0;                 ///< of that dataset
   std::vector<double> guide{1, 0.1, 0.01};
   int guide_harmonics = 24;
+  bool settled = false;
   EnsembleOptions ensemble;  ///< its seed is `seed`
 };
 

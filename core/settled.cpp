@@ -1,0 +1,49 @@
+#include "core/settled.h"
+
+#include <string>
+#include <utility>
+
+#include "core/guided.h"
+#include "core/outline.h"
+#include "core/profile.h"
+
+namespace drape {
+namespace {
+
+constexpr int kHarmonics = 40;  // of an outline that is followed
+constexpr double kKappa = 10;   // strength of the first guide
+
+/// The drape that the outline of x leads to.
+Equilibrium led_by_outline(const Potential& potential, const Scene& scene, const VecX& x,
+                           const EquilibriumOptions& options) {
+  const Outline outline = trace_outline(potential.mesh(), scene, x);
+  const Guide guide{.radius = harmonics(radial_profile(outline.points).radius, kHarmonics)};
+  return drape_guided(potential, scene, guide, {kKappa, kKappa / 10, kKappa / 100}, options);
+}
+
+}  // namespace
+
+Equilibrium settle(const Potential& potential, const Scene& scene, Equilibrium drape,
+                   const EquilibriumOptions& options, const SettlingOptions& settling) {
+  if (!drape.converged()) return drape;
+  const std::string protocol = drape.protocol;
+  Equilibrium lowest = std::move(drape), work;
+  work.add_work_of(lowest);
+  VecX x = lowest.x;
+  bool settled = false;
+  for (int round = 0; round < settling.rounds && !settled; ++round) {
+    Equilibrium next = led_by_outline(potential, scene, x, options);
+    work.add_work_of(next);
+    if (!next.converged()) break;
+    settled = largest_distance(next.x, x) <= settling.same_distance;
+    x = next.x;
+    if (settled || next.energy < lowest.energy) lowest = std::move(next);
+  }
+  lowest.newton_iterations = lowest.factorizations = 0;
+  lowest.cpu_seconds = 0;
+  lowest.add_work_of(work);
+  lowest.protocol = protocol + (settled ? ", settled" : ", unsettled");
+  return lowest;
+}
+
+}  // namespace drape
