@@ -1,7 +1,6 @@
 #include "experiments/mesh_bias.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <map>
@@ -130,7 +129,10 @@ std::vector<Json> drape_turned_meshes(const Settings& settings, const OutputFold
   const auto name_of = [&](int vertices, int seed, int rotation, int i) {
     return item_name(vertices, seed, rotation, i / protocols, kProtocols[i % protocols]);
   };
-  std::vector<std::array<int, 3>> meshes;
+  struct TurnedMesh {
+    int vertices, seed, rotation;
+  };
+  std::vector<TurnedMesh> meshes;
   int resumed = 0;
   for (const int vertices : v.bias_vertices)
     for (int seed = 1; seed <= v.seeds; ++seed)
@@ -141,32 +143,33 @@ std::vector<Json> drape_turned_meshes(const Settings& settings, const OutputFold
       }
   Progress progress("mesh bias", static_cast<int>(meshes.size()) * per_mesh, resumed);
   std::vector<Json> drapes;
-  for (const auto& [vertices, seed, rotation] : meshes) {
+  for (const TurnedMesh& mesh : meshes) {
     Settings turned = settings;
-    turned.mesh.seed = static_cast<std::uint64_t>(seed);
-    turned.mesh.rotation = kPi * rotation / v.rotations;  // half a turn leaves the fabric as it was
+    turned.mesh.seed = static_cast<std::uint64_t>(mesh.seed);
+    turned.mesh.rotation =
+        kPi * mesh.rotation / v.rotations;  // half a turn leaves the fabric as it was
     // the ramp's noise belongs to the vertices: the same for all turns, it would turn the folds,
     // too
-    turned.start.seed = settings.start.seed + static_cast<std::uint64_t>(rotation);
+    turned.start.seed = settings.start.seed + static_cast<std::uint64_t>(mesh.rotation);
     std::vector<int> missing;
     for (int i = 0; i < per_mesh; ++i)
-      if (!store.has(name_of(vertices, seed, rotation, i))) missing.push_back(i);
+      if (!store.has(name_of(mesh.vertices, mesh.seed, mesh.rotation, i))) missing.push_back(i);
     if (!missing.empty()) {
-      const auto discretization = make_discretization(turned, vertices);
+      const auto discretization = make_discretization(turned, mesh.vertices);
       for_each_item(
           static_cast<int>(missing.size()), settings.experiment.thread_count(), [&](int m) {
             const int i = missing[static_cast<size_t>(m)];
             Json item = drape_one(turned, discretization, i / protocols, kProtocols[i % protocols]);
-            item["vertices"] = vertices;
-            item["seed"] = seed;
+            item["vertices"] = mesh.vertices;
+            item["seed"] = mesh.seed;
             item["rotation"] = turned.mesh.rotation;
-            store.save(name_of(vertices, seed, rotation, i), item);
+            store.save(name_of(mesh.vertices, mesh.seed, mesh.rotation, i), item);
             progress.advance();
           });
       if (interrupted()) return drapes;
     }
     for (int i = 0; i < per_mesh; ++i)
-      drapes.push_back(store.load(name_of(vertices, seed, rotation, i)));
+      drapes.push_back(store.load(name_of(mesh.vertices, mesh.seed, mesh.rotation, i)));
   }
   return drapes;
 }
