@@ -1,7 +1,9 @@
 #include "core/settled.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/guided.h"
 #include "core/outline.h"
@@ -29,14 +31,18 @@ Equilibrium settle(const Potential& potential, const Scene& scene, Equilibrium d
   const std::string protocol = drape.protocol;
   Equilibrium lowest = std::move(drape), work;
   work.add_work_of(lowest);
-  VecX x = lowest.x;
-  bool settled = false;
-  for (int round = 0; round < settling.rounds && !settled; ++round) {
-    Equilibrium next = led_by_outline(potential, scene, x, options);
+  std::vector<VecX> passed{lowest.x};
+  bool settled = false, circle = false;
+  for (int round = 0; round < settling.rounds && !settled && !circle; ++round) {
+    Equilibrium next = led_by_outline(potential, scene, passed.back(), options);
     work.add_work_of(next);
     if (!next.converged()) break;
-    settled = largest_distance(next.x, x) <= settling.same_distance;
-    x = next.x;
+    const auto is_next = [&](const VecX& x) {
+      return largest_distance(next.x, x) <= settling.same_distance;
+    };
+    settled = is_next(passed.back());
+    circle = std::any_of(passed.begin(), passed.end() - 1, is_next);
+    passed.push_back(next.x);
     if (settled || next.energy < lowest.energy) lowest = std::move(next);
   }
   lowest.newton_iterations = lowest.factorizations = 0;
