@@ -134,6 +134,12 @@ void check_fit(const Settings& settings, const Refuse& refuse) {
   if (!settings.mesh.vertices && settings.start.protocol == StartProtocol::ensemble)
     refuse("mesh.vertices",
            "mesh.vertices = \"auto\" follows one drape; an ensemble needs a count");
+  if (kind == Kind::drape && settings.start.settled &&
+      settings.start.protocol == StartProtocol::ensemble)
+    refuse(
+        "start.settled",
+        "start.settled is for one drape; kind \"drape\" lists every minimum of an ensemble as it "
+        "is");
   if (kind == Kind::branches && !(settings.branches.softest < settings.branches.stiffest))
     refuse("branches.softest", "branches.softest must be less than branches.stiffest");
   for (const auto& [key, range] :

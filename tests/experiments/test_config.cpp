@@ -128,6 +128,10 @@ TEST(Config, VerticesAreACountOrAuto) {
       read_error(std::nullopt, {assignment_from_set("experiment.kind=drape"),
                                 assignment_from_set("start.protocol=ensemble"), automatic}),
       "an ensemble needs a count"));
+  EXPECT_TRUE(contains(read_error(std::nullopt, {assignment_from_set("experiment.kind=drape"),
+                                                 assignment_from_set("start.protocol=ensemble"),
+                                                 assignment_from_set("start.settled=true")}),
+                       "--set start.settled=true: start.settled is for one drape"));
 }
 
 TEST(Config, UnknownKey) {

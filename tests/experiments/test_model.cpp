@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <string>
 
 #include "core/support_contact.h"
 #include "experiments/model.h"
@@ -52,6 +53,17 @@ TEST(SolveStats, SaysThatContactSwitchedOnWhereOnlyTheSecondSolveFailed) {
   potential.set_support(support_contact(settings.scene));
   second.status = EquilibriumStatus::stagnated;
   EXPECT_EQ(solve_stats(potential, settings.scene, second).contact, "support");
+}
+
+TEST(Drape, IsSettledWhereTheSettingsSaySo) {
+  Settings settings = test::small_drape();
+  const auto protocol = [&] {
+    Potential potential = make_potential(make_discretization(settings), settings.fabric, settings);
+    return drape(settings, potential).equilibrium.protocol;
+  };
+  const std::string plain = protocol();
+  settings.start.settled = true;
+  EXPECT_EQ(protocol(), plain + ", settled");
 }
 
 }  // namespace
