@@ -2,6 +2,8 @@
 """Error against CPU time of several methods: a row a start and mesh size, a column a fabric.
 
     /usr/bin/python3 work_precision.py CHART.json --out DIR/chart    writes .png and .pdf"""
+import textwrap
+
 import numpy as np
 from matplotlib.ticker import LogLocator, NullLocator
 
@@ -16,6 +18,7 @@ TITLES = {
 }
 LOWEST = {"residual": 1e-10, "rms_mm": 1e-7, "drape_coefficient_error": 1e-7}
 STARTS = {"folded": "from a folded state", "near": "from a drape 10 % stiffer"}
+COLUMNS = 118  # of text across the page
 LEFT, TOP, WIDTH, HEIGHT, STEP_X, STEP_Y = 13, 30, 50, 38, 56.5, 51
 
 
@@ -29,10 +32,11 @@ def page(chart):
                         TOP + STEP_Y * len(rows) + 3 + 4.5 * legend_rows)
     figure.text(6, 4, "Error against CPU time", fontsize=11, weight="bold")
     seeds = panels[0]["seeds"]
-    figure.text(6, 10.5, f"{TITLES[chart['error']]};\nmedian and range over {seeds} "
-                f"mesh{'es' if seeds > 1 else ''}. All methods have the same budget of CPU time. Full "
-                "circle: every run\nconverged; open: some run was still on its way when its budget "
-                "ended; cross: the others stalled, diverged or ended at a saddle.")
+    spread = f"median and range over {seeds} meshes" if seeds > 1 else "one mesh"
+    account = (f"{TITLES[chart['error']]}; {spread}. All methods have the same budget of CPU time. "
+               "Full circle: every run converged; open: some run was still on its way when its "
+               "budget ended; cross: the others stalled, diverged or ended at a saddle.")
+    figure.text(6, 10.5, textwrap.fill(account, COLUMNS))
     floor = LOWEST[chart["error"]]
     for panel in panels:
         row, column = rows.index((panel["start"], panel["vertices"])), \
