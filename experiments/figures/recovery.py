@@ -5,7 +5,7 @@
 """
 
 import numpy as np
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import LogLocator, NullFormatter, NullLocator
 
 import results as records
 import style
@@ -66,6 +66,9 @@ def outline_panel(axes, fits):
     axes.set(yscale="log", xlim=(0, 100), xlabel="drape coefficient [%]", ylabel="outline rms [mm]")
     scatter(axes, fits, lambda fit: 100 * fit.drape_coefficient,
             lambda fit: max(1e3 * fit.estimate.outline_rms, 1e-6))
+    axes.set_ylim(5e-7, max(10, axes.get_ylim()[1]))
+    axes.yaxis.set_major_locator(LogLocator(base=100))
+    axes.yaxis.set_minor_locator(NullLocator())
     axes.set_title("What is left of the outline\n(at least $10^{-6}$ shown)", fontsize=7)
 
 
