@@ -30,10 +30,7 @@ Equilibrium chosen_on_coarse_mesh(const Potential& potential, const EquilibriumO
                    potential.gravity());
   coarse.set_guide(potential.guide());
   coarse.set_support(potential.support());
-  EquilibriumOptions loose = options;
-  loose.tolerance = std::max(kLooseTolerance, options.tolerance);
-  loose.certify = false;
-  Equilibrium chosen = choose(coarse, loose);
+  Equilibrium chosen = choose(coarse, options.loosened(kLooseTolerance));
   chosen.x = level->transfer(chosen.x);
   if (!chosen.converged()) {
     chosen.preconditioner = nullptr;  // of the coarse mesh

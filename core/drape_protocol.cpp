@@ -48,10 +48,8 @@ Equilibrium ramp(Potential potential, const RampSteps& how, std::uint64_t seed,
   VecX before;
   for (int i = 0; i < how.steps; ++i) {
     const bool last = i == how.steps - 1;
-    EquilibriumOptions step = options;
+    EquilibriumOptions step = last ? options : options.loosened(kLooseTolerance);
     step.max_iterations -= result.newton_iterations;
-    step.certify = last && options.certify;
-    if (!last) step.tolerance = std::max(kLooseTolerance, options.tolerance);
     potential.set_gravity(gravity *
                           std::pow(kRampStart, 1 - static_cast<double>(i) / (how.steps - 1)));
     const VecX start = how.predicted && i > 1 ? VecX(2 * x - before) : x;
@@ -130,12 +128,10 @@ Equilibrium solve_stiffening(Potential potential, const Scene& scene, const VecX
   result.x = x;
   for (double most = tension / kSoftStrain;; most *= kStiffening) {
     const bool last = 3 * most > stiffest;
-    EquilibriumOptions step = options;
+    EquilibriumOptions step = last ? options : options.loosened(kSoftTolerance);
     step.max_iterations -= result.newton_iterations;
     Fabric softened = fabric;
     if (!last) {
-      step.certify = false;
-      step.tolerance = std::max(kSoftTolerance, options.tolerance);
       for (Parameter k : {Parameter::k_u, Parameter::k_v, Parameter::k_h})
         softened[k] = std::min(fabric[k], most);
     }

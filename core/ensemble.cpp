@@ -89,20 +89,14 @@ Equilibrium drape_from(const Potential& potential, const Scene& scene, const Ens
 
 Equilibrium lowest_of_ensemble(const Potential& potential, const Scene& scene,
                                const EnsembleOptions& ensemble, const EquilibriumOptions& options) {
-  Equilibrium lowest;
-  int iterations = 0, factorizations = 0;
-  double cpu = 0;
+  Equilibrium lowest, work;
   for (const EnsembleStart& start : ensemble_starts(ensemble)) {
     Equilibrium drape = drape_from(potential, scene, start, options);
-    iterations += drape.newton_iterations;
-    factorizations += drape.factorizations;
-    cpu += drape.cpu_seconds;
+    work.add_work_of(drape);
     if (!lowest.converged() || (drape.converged() && drape.energy < lowest.energy))
       lowest = std::move(drape);
   }
-  lowest.newton_iterations = iterations;
-  lowest.factorizations = factorizations;
-  lowest.cpu_seconds = cpu;
+  lowest.set_work_of(work);
   lowest.protocol = "ensemble, " + lowest.protocol;
   return lowest;
 }

@@ -9,6 +9,7 @@
 // solver leaves along a direction of negative curvature.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
@@ -27,6 +28,14 @@ struct EquilibriumOptions {
   /// Called after every iteration with the state and its gradient (3n); false ends the solve like
   /// max_iterations does. May be empty.
   std::function<bool(const VecX& x, const VecX& gradient)> go_on = nullptr;
+
+  /// For a state on the way to another: a residual of `residual` will do, not certified.
+  EquilibriumOptions loosened(double residual) const {
+    EquilibriumOptions loose = *this;
+    loose.tolerance = std::max(residual, tolerance);
+    loose.certify = false;
+    return loose;
+  }
 };
 
 enum class EquilibriumStatus {
@@ -60,6 +69,13 @@ struct Equilibrium {
     newton_iterations += earlier.newton_iterations;
     factorizations += earlier.factorizations;
     cpu_seconds += earlier.cpu_seconds;
+  }
+
+  /// Counts and times become those of `all` the solves that led here, this one among them.
+  void set_work_of(const Equilibrium& all) {
+    newton_iterations = all.newton_iterations;
+    factorizations = all.factorizations;
+    cpu_seconds = all.cpu_seconds;
   }
 
   bool converged() const { return status == EquilibriumStatus::converged; }

@@ -40,9 +40,7 @@ Equilibrium drape_guided(const Potential& potential, const Scene& scene, Guide g
                          const std::vector<double>& kappas, const EquilibriumOptions& options) {
   if (kappas.empty())
     throw std::invalid_argument("guided drape: no strength of the guide is given");
-  EquilibriumOptions held = options;
-  held.tolerance = std::max(kLooseTolerance, options.tolerance);
-  held.certify = false;
+  const EquilibriumOptions held = options.loosened(kLooseTolerance);
   guide.kappa = kappas.front();
   Equilibrium result = solve_under_guide(potential, scene, guide, held);
   for (size_t i = 1; i <= kappas.size() && result.converged(); ++i) {

@@ -21,8 +21,9 @@ Equilibrium solve_under_guide_from_coarse(const Potential& potential, const Scen
                                           const EquilibriumOptions& options = {});
 
 /// Under guide.kappa = each of `kappas` in turn, the first from the meridians and each from the one
-/// before, then without a guide. Counts and times are those of the whole way; a failure on the way
-/// is the status of the result. Throws std::invalid_argument when `kappas` is empty.
+/// before, then without a guide. The guided ones are solved loosely. Counts and times are those of
+/// the whole way; a failure on the way is the status of the result. Throws std::invalid_argument
+/// when `kappas` is empty.
 Equilibrium drape_guided(const Potential& potential, const Scene& scene, Guide guide,
                          const std::vector<double>& kappas, const EquilibriumOptions& options = {});
 

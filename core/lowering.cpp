@@ -32,9 +32,7 @@ class Lowering {
       potential_.set_plate(std::nullopt);
       result_ = solve(result_.x, options_.tolerance);
     }
-    result_.newton_iterations = iterations_;
-    result_.factorizations = factorizations_;
-    result_.cpu_seconds = cpu_;
+    result_.set_work_of(work_);
     result_.protocol = "lowering";
     return std::move(result_);
   }
@@ -77,11 +75,9 @@ class Lowering {
   Equilibrium solve(const VecX& x, double tolerance) {
     EquilibriumOptions step = options_;
     step.tolerance = tolerance;
-    step.max_iterations = options_.max_iterations - iterations_;
+    step.max_iterations = options_.max_iterations - work_.newton_iterations;
     Equilibrium equilibrium = solve_equilibrium(potential_, x, step);
-    iterations_ += equilibrium.newton_iterations;
-    factorizations_ += equilibrium.factorizations;
-    cpu_ += equilibrium.cpu_seconds;
+    work_.add_work_of(equilibrium);
     return equilibrium;
   }
 
@@ -90,8 +86,7 @@ class Lowering {
   double largest_step_;
   Equilibrium result_;
   double height_ = 2 * kStartNoise;  // all of the flat start touches
-  int iterations_ = 0, factorizations_ = 0;
-  double cpu_ = 0;
+  Equilibrium work_;                 // of all solves
 };
 
 }  // namespace

@@ -155,11 +155,7 @@ ResolvedDrape drape_resolved(const Scene& scene, const DiscMeshOptions& mesh,
       size.vertices = static_cast<int>(std::lround(kOtherSize * size.vertices));
     }
     Potential potential = potential_on(size);
-    EquilibriumOptions how = options;
-    if (other_mesh) {
-      how.tolerance = std::max(kOtherTolerance, options.tolerance);
-      how.certify = false;
-    }
+    const EquilibriumOptions how = other_mesh ? options.loosened(kOtherTolerance) : options;
     std::function<Equilibrium(const Potential&)> from = protocol;
     if (!draped.empty())
       from = [&](const Potential& on) {

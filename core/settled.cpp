@@ -45,9 +45,7 @@ Equilibrium settle(const Potential& potential, const Scene& scene, Equilibrium d
     passed.push_back(next.x);
     if (settled || next.energy < lowest.energy) lowest = std::move(next);
   }
-  lowest.newton_iterations = lowest.factorizations = 0;
-  lowest.cpu_seconds = 0;
-  lowest.add_work_of(work);
+  lowest.set_work_of(work);
   lowest.protocol = protocol + (settled ? ", settled" : ", unsettled");
   return lowest;
 }

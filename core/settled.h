@@ -3,9 +3,8 @@
 // On a mesh a stiff membrane holds single vertices near the feet of folds, popped to one side or
 // the other, and a protocol that passes many folds ends with some of them where they do not belong.
 // From the outline of such a drape a guided start (guided.h), whose membrane is soft first, leads
-// to another drape of nearly that outline and mostly less energy. Of 80 random fabrics with drape
-// coefficients above 55 %, 1000 vertices, a quarter move, by 1 to 30 mm, and settle in one to nine
-// rounds. Parameters can be told from an outline alone only where the drape is the one that it
+// to another drape of nearly that outline and mostly less energy (how often: README, "Which
+// drape"). Parameters can be told from an outline alone only where the drape is the one that it
 // leads to.
 #pragma once
 

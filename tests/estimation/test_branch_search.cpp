@@ -101,8 +101,10 @@ TEST(BranchSearch, ANeighbourIsLeftForTheBranchObserved) {
 }
 
 TEST(BranchSearch, WhatIsExplainedMayStillBeSearched) {
-  EXPECT_FALSE(explains_well(1.2));
-  EXPECT_TRUE(explains(1.2));
+  EXPECT_TRUE(explains_well(1.09));
+  EXPECT_FALSE(explains_well(1.11));
+  EXPECT_TRUE(explains(1.29));
+  EXPECT_FALSE(explains(1.31));
 }
 
 TEST(BranchSearch, EveryMoveEndsOnAFreeEquilibriumOrSaysThatItHasNone) {
