@@ -8,12 +8,9 @@
 
 #ifdef DRAPE_WITH_CHOLMOD
 #include <cholmod.h>
-#include <omp.h>
 
+#include "core/blas_call.h"
 #include "core/supernodal_sweep.h"
-
-// OpenBLAS, when it is the BLAS of this process, would start threads of its own.
-extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 #endif
 
 namespace drape {
@@ -27,21 +24,7 @@ constexpr int kInverseIterations = 60;
 #ifdef DRAPE_WITH_CHOLMOD
 namespace {
 
-/// Debian's CHOLMOD opens OpenMP threads of its own in the supernodal kernel, which makes it 2 to 4
-/// times slower at our sizes; drapes are parallel over fabrics instead.
-class OneThread {
- public:
-  OneThread() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
-  ~OneThread() { omp_set_max_active_levels(levels_); }
-  OneThread(const OneThread&) = delete;
-  OneThread& operator=(const OneThread&) = delete;
-
- private:
-  int levels_;
-};
-
 void start(cholmod_common& common) {
-  if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
   cholmod_start(&common);
   common.supernodal = CHOLMOD_SUPERNODAL;
   common.nmethods = 1;
@@ -160,7 +143,7 @@ SymbolicFactor::SymbolicFactor(const SparseMatrix& pattern, FactorBackend backen
   if (backend == FactorBackend::cholmod) {
     cholmod_ = std::make_unique<Cholmod>();
     start(cholmod_->common);
-    const OneThread one_thread;
+    const BlasCall alone;
     cholmod_sparse A = view(pattern);
     cholmod_->factor = cholmod_analyze(&A, &cholmod_->common);
     if (cholmod_->factor == nullptr)
@@ -205,7 +188,7 @@ bool SparseFactor::factorize(const SparseMatrix& lower) {
   if (!Eigen::Map<const VecX>(lower.valuePtr(), lower.nonZeros()).allFinite()) return false;
 #ifdef DRAPE_WITH_CHOLMOD
   if (symbolic_->backend() == FactorBackend::cholmod) {
-    const OneThread one_thread;
+    const BlasCall alone;
     cholmod_sparse A = view(lower);
     cholmod_factorize(&A, numeric_->factor, &numeric_->common);
     if (numeric_->common.status < CHOLMOD_OK)
@@ -227,7 +210,7 @@ MatX SparseFactor::solve(const MatX& right_hand_sides) const {
   if (!numeric_->valid) throw std::logic_error("sparse factorisation: solve without a factor");
 #ifdef DRAPE_WITH_CHOLMOD
   if (symbolic_->backend() == FactorBackend::cholmod) {
-    const OneThread one_thread;
+    const BlasCall alone;
     cholmod_dense B{};
     B.nrow = B.d = static_cast<size_t>(right_hand_sides.rows());
     B.ncol = static_cast<size_t>(right_hand_sides.cols());

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "core/sparse_factor.h"
@@ -135,6 +136,31 @@ TEST(SparseFactor, NamesGoThereAndBack) {
 #ifndef DRAPE_WITH_CHOLMOD
   EXPECT_THROW(factor_backend_from_name("cholmod"), std::invalid_argument);
 #endif
+}
+
+/// Without core/blas_call.h, Debian's serial OpenBLAS ends this in wrong factors or a crash.
+TEST(SparseFactor, ThreadsDoNotDisturbOneAnother) {
+  constexpr int kTimes = 1000;
+  const std::vector<SparseMatrix> matrices{grid_matrix(30, 0.1), grid_matrix(31, 0.2)};
+  const auto solved = [](SparseFactor& factor, const SparseMatrix& A) -> MatX {
+    return factor.factorize(A) ? factor.solve(MatX::Ones(A.rows(), 4)) : MatX();
+  };
+  for (const FactorBackend backend : backends()) {
+    std::vector<MatX> alone;
+    for (const SparseMatrix& A : matrices) {
+      SparseFactor factor = factor_for(A, backend);
+      alone.push_back(solved(factor, A));
+    }
+    std::vector<int> wrong(matrices.size());
+    std::vector<std::thread> threads;
+    for (size_t i = 0; i < matrices.size(); ++i)
+      threads.emplace_back([&, i] {
+        SparseFactor factor = factor_for(matrices[i], backend);
+        for (int k = 0; k < kTimes; ++k) wrong[i] += solved(factor, matrices[i]) != alone[i];
+      });
+    for (std::thread& thread : threads) thread.join();
+    for (const int count : wrong) EXPECT_EQ(count, 0) << name(backend);
+  }
 }
 
 }  // namespace
