@@ -1,6 +1,7 @@
 #include "estimation/estimate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -20,6 +21,7 @@ constexpr double kFinalTolerance =
 constexpr int kNeighbourIterations = 8;  // on the right branch they reach the noise
 constexpr double kWorthFitting = 2;      // miss of a neighbour over that of the best
 constexpr double kBetter = 0.9;
+constexpr double kPopsMove = 1e-3;  // rms of an outline, at most [m]
 
 /// What became of a fit from one start.
 struct Attempt {
@@ -65,11 +67,28 @@ class Estimation {
     return released(std::nullopt);
   }
 
+  /// Each step is tried where those before it have not explained the outlines.
+  Attempt search() {
+    const VecX unknowns = fit_.state().u;
+    Attempt best = with_moves(guided());
+    if (!is_explained(best)) best = with_restarts(std::move(best));
+    if (!is_explained(best)) best = with_pops(std::move(best));
+    if (best.outcome == EstimateOutcome::no_start) fit_.set_unknowns(unknowns);
+    return best;
+  }
+
+  static bool is_explained(const Attempt& attempt) {
+    return attempt.free() && explains_well(attempt.miss);
+  }
+
+  static bool is_better(const Attempt& one, const Attempt& than) {
+    return drape::is_better(one.outcome, one.miss, than.outcome, than.miss);
+  }
+
   /// Fits from one guided start after the other, until a free one has the nodes observed or
   /// explains the outlines, be it that its branch ends before its minimum. Each takes up the
-  /// unknowns that explained them best under the first guide. What misfit remains then is left to
-  /// neighbours.
-  Attempt search() {
+  /// unknowns that explained them best under the first guide.
+  Attempt guided() {
     Attempt best;
     VecX u = fit_.state().u;
     double guided_miss = std::numeric_limits<double>::infinity();
@@ -78,20 +97,66 @@ class Estimation {
       if (!fit_.lay_along(start)) continue;
       Attempt now = guided_attempt(guided_miss, u);
       const bool ends = now.free() && (fit_.same_nodes() || explains(now.miss));
-      if (is_better(now.outcome, now.miss, best.outcome, best.miss)) best = std::move(now);
+      if (is_better(now, best)) best = std::move(now);
       if (ends) break;
     }
-    const bool lost = best.outcome == EstimateOutcome::branch_lost;
-    return lost || (best.free() && !explains_well(best.miss)) ? with_neighbours(std::move(best))
-                                                              : best;
+    return best;
   }
 
-  /// Moves from the best drape to better ones, until no move finds one or moves run out. To a
-  /// branch that was lost any free drape with the nodes observed is better.
-  Attempt with_neighbours(Attempt best) {
-    const std::vector<Move> moves = neighbour_moves(options_.guide_harmonics);
+  /// The same from other first unknowns, each laid once; then moves from the best of them, if it is
+  /// better than the one that there was.
+  Attempt with_restarts(Attempt best) {
+    bool better = false;
+    for (int i = 1; i <= options_.max_restarts && !is_explained(best) && !fit_.spent(); ++i) {
+      fit_.scatter_unknowns(i);
+      if (!fit_.lay_along(guided_starts(options_.guide, options_.guide_harmonics).front()))
+        continue;
+      double guided_miss = std::numeric_limits<double>::infinity();
+      VecX u;
+      Attempt now = guided_attempt(guided_miss, u);
+      if (!is_better(now, best)) continue;
+      best = std::move(now);
+      better = true;
+    }
+    return better ? with_moves(std::move(best)) : best;
+  }
+
+  /// Moves from the best drape to better ones, until none is found. To a branch that was lost any
+  /// free drape with the nodes observed is better.
+  Attempt with_moves(Attempt best) {
+    if (best.outcome == EstimateOutcome::no_start || is_explained(best)) return best;
     const Attempt first = best;
     if (!best.free()) best.miss = std::numeric_limits<double>::infinity();
+    return move(best) ? released_from(best) : first;
+  }
+
+  /// Pops vertices of the best free drape, and moves on from what that leads to.
+  Attempt with_pops(Attempt best) {
+    if (!best.free()) return best;
+    const Attempt first = best;
+    bool better = false;
+    for (int left = options_.max_pops; left > 0 && !explains_well(best.miss);) {
+      fit_.take_up(best.state);
+      if (fit_.largest_rms() > kPopsMove) break;
+      const int before = fit_.pops();
+      if (!pop_through(fit_, left)) break;
+      left -= fit_.pops() - before;
+      best.state = fit_.state();
+      best.miss = fit_.largest_miss();
+      better = true;
+      if (!move(best)) break;
+    }
+    return better ? released_from(best) : first;
+  }
+
+  Attempt released_from(const Attempt& best) {
+    fit_.take_up(best.state);
+    return released(std::nullopt);
+  }
+
+  /// Whether a move has led to a better drape, which `best` is then.
+  bool move(Attempt& best) {
+    const std::vector<Move> moves = neighbour_moves(options_.guide_harmonics);
     std::vector<FitState> known{best.state};
     size_t since_better = 0;
     bool found = false;
@@ -115,9 +180,7 @@ class Estimation {
       since_better = 0;
       found = true;
     }
-    if (!found) return first;
-    fit_.take_up(best.state);
-    return released(std::nullopt);
+    return found;
   }
 
   /// From the guided start at hand to a free fit. One that explains the outlines no better than

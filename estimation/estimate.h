@@ -6,7 +6,8 @@
 // all pictures are released together (kappa = 1, 0.1, 0.01, 0). Exact data have zero residual at
 // the truth for every kappa, so the guide biases nothing; without it a fit from elsewhere ends on a
 // neighbouring branch. Where a misfit above the noise remains, or the nodes observed are lost with
-// the guide, neighbours of the drape are tried (branch_search.h). Only a fit counts that ends with
+// the guide, fits from other first parameters are tried, then neighbours of the best drape
+// (branch_search.h), then single vertices of the mesh (popping.h). Only a fit counts that ends with
 // kappa = 0 on a certified minimum, with the nodes observed, and explains the outlines.
 //
 // Whether the support acts (core/contact.h) is decided once, at the guided start, and held from
@@ -42,8 +43,11 @@ struct EstimateOptions {
   EquilibriumOptions equilibrium;                ///< of the first, guided solve
   /// Along the unguided fit: trials that lose the branch are given up at once, Ceres shortens them.
   ContinuationOptions continuation{.halvings = 0, .largest_leap = 0.7};
-  int max_solves = 1000;  ///< forward solves of one fit a picture, over all stages
-  int max_moves = 50;     ///< to neighbouring drapes where a misfit remains; 0: none is tried
+  int max_solves = 3000;  ///< forward solves of one fit a picture, over all stages
+  // where a misfit remains, one after the other; 0: not tried
+  int max_restarts = 8;  ///< fits from other first parameters
+  int max_moves = 50;    ///< to neighbouring drapes (branch_search.h)
+  int max_pops = 2000;   ///< of single vertices (popping.h)
 };
 
 enum class EstimateOutcome {

@@ -1,9 +1,12 @@
 #include "estimation/staged_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -15,8 +18,20 @@ namespace drape {
 namespace {
 
 constexpr double kOvershootKappa = 1;
+constexpr double kLeastHeight = 0.04;  // of a vertex that pops, over its distance from others
+constexpr double kNearby = 0.15;       // [rad]
+constexpr double kSpread = 5;
+constexpr std::array kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41};
+constexpr double kNearFit = 1e-2, kNearDrape = 1e-4;  // ends of fits are rough; [m]
 constexpr double kSameDrape = 1e-5;     // [m]: neighbours differ by tenths of a millimetre
 constexpr std::uint64_t kRampSeed = 2;  // of the noise in the flat start
+
+/// The digits of index in base `base`, mirrored at the point.
+double radical_inverse(int index, int base) {
+  double value = 0, digit = 1;
+  for (; index > 0; index /= base) value += (digit /= base) * (index % base);
+  return value;
+}
 
 }  // namespace
 
@@ -42,6 +57,15 @@ void StagedFit::set_unknowns(const VecX& u) {
   if (u == state_.u) return;
   state_.u = u;
   state_.fabric = space().decode(u.head(space().size()));
+}
+
+void StagedFit::scatter_unknowns(int index) {
+  VecX u = VecX::Zero(objective_.unknowns());
+  u.head(space().size()) = space().encode(start_);
+  for (int i = 0; i < space().size(); ++i)
+    if (is_logarithmic(options_.parameters[static_cast<size_t>(i)]))
+      u[i] += std::log(kSpread) * (2 * radical_inverse(index, kPrimes[static_cast<size_t>(i)]) - 1);
+  set_unknowns(u);
 }
 
 Guide StagedFit::guide_of(size_t i, double kappa) const {
@@ -157,6 +181,50 @@ bool StagedFit::overshoot(double factor) {
   return replace_drapes(std::move(drapes), 0);
 }
 
+std::vector<PicturePop> StagedFit::promising_pops() const {
+  std::vector<std::pair<double, PicturePop>> weighed;
+  for (size_t i = 0; i < pictures(); ++i) {
+    const OutlineObservation& seen = picture(i).seen;
+    const VecX missed = (profile_of(i) - seen.profile).cwiseAbs2();
+    const VecX& x = state_.pictures[i].equilibrium.x;
+    const Placement placement = objective_.placement_at(i, state_.u);
+    for (const Pop& pop : poppable(potentials_[i].mesh(), x, kLeastHeight)) {
+      const VecX vertex = seen.camera.seen(x.segment<3>(3 * pop.vertex));
+      const Points2 point = placement.seen(vertex.head<2>().transpose());
+      const double azimuth = std::atan2(point(0, 1), point(0, 0));
+      double near = 0;
+      for (Eigen::Index k = 0; k < missed.size(); ++k) {
+        const double away =
+            std::remainder(azimuth - 2 * std::numbers::pi * static_cast<double>(k) / kProfileSize,
+                           2 * std::numbers::pi);
+        near += missed[k] * std::exp(-0.5 * away * away / (kNearby * kNearby));
+      }
+      weighed.push_back({near, {i, pop}});
+    }
+  }
+  std::ranges::stable_sort(weighed, std::greater{}, &std::pair<double, PicturePop>::first);
+  std::vector<PicturePop> order;
+  for (const auto& [near, pop] : weighed) order.push_back(pop);
+  return order;
+}
+
+bool StagedFit::pop(const PicturePop& which) {
+  std::vector<Equilibrium> drapes;
+  for (const PictureEstimate& own : state_.pictures) drapes.push_back(own.equilibrium);
+  Equilibrium& drape = drapes[which.picture];
+  Potential& potential = potentials_[which.picture];
+  potential.set_fabric(state_.fabric);
+  potential.set_guide(std::nullopt);
+  VecX x = drape.x;
+  x.segment<3>(3 * which.pop.vertex) = which.pop.to;
+  drape = solve_equilibrium(potential, x, options_.equilibrium, drape.preconditioner);
+  ++pops_;
+  const int solves = solves_;
+  const bool replaced = replace_drapes(std::move(drapes), 0);
+  solves_ = solves;
+  return replaced;
+}
+
 Equilibrium StagedFit::drape_freely(size_t i, FreeDrape how) const {
   const Potential& potential = potentials_[i];
   const Scene& scene = picture(i).scene;
@@ -251,20 +319,39 @@ bool StagedFit::is_at(const FitState& state) const {
   return same;
 }
 
+bool StagedFit::linearise(VecX& residuals, MatX& jacobian) {
+  return objective_.residuals_at(state_.u, residuals, &jacobian);
+}
+
 VecX StagedFit::profile_of(size_t i) const {
   const VecX x = picture(i).seen.camera.seen(state_.pictures[i].equilibrium.x);
   const Outline outline = trace_outline(potentials_[i].mesh(), picture(i).scene, x);
   return radial_profile(objective_.placement_at(i, state_.u).seen(outline.points)).radius;
 }
 
+bool StagedFit::is_near(const FitState& state) const {
+  bool near = (state_.u - state.u).cwiseAbs().maxCoeff() < kNearFit;
+  for (size_t i = 0; near && i < pictures(); ++i)
+    near = largest_distance(state_.pictures[i].equilibrium.x, state.pictures[i].equilibrium.x) <
+           kNearDrape;
+  return near;
+}
+
 double StagedFit::largest_miss() const {
   double largest = 0;
-  for (size_t i = 0; i < pictures(); ++i) {
-    const OutlineObservation& seen = picture(i).seen;
-    const double rms = std::sqrt((profile_of(i) - seen.profile).squaredNorm() / kProfileSize);
-    largest = std::max(largest, rms / seen.noise);
-  }
+  for (size_t i = 0; i < pictures(); ++i)
+    largest = std::max(largest, rms_of(i) / picture(i).seen.noise);
   return largest;
+}
+
+double StagedFit::largest_rms() const {
+  double largest = 0;
+  for (size_t i = 0; i < pictures(); ++i) largest = std::max(largest, rms_of(i));
+  return largest;
+}
+
+double StagedFit::rms_of(size_t i) const {
+  return std::sqrt((profile_of(i) - picture(i).seen.profile).squaredNorm() / kProfileSize);
 }
 
 bool StagedFit::same_nodes() const {
@@ -286,8 +373,7 @@ void StagedFit::examine() {
     own.contact.reason = std::move(reason);
     own.contact_doubtful = would_choose_otherwise(potential, own.contact, x);
     own.placement = objective_.placement_at(i, state_.u);
-    own.outline_rms =
-        std::sqrt((profile_of(i) - picture(i).seen.profile).squaredNorm() / kProfileSize);
+    own.outline_rms = rms_of(i);
   }
 }
 

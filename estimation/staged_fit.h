@@ -9,6 +9,7 @@
 
 #include "estimation/branch_search.h"
 #include "estimation/estimate.h"
+#include "estimation/popping.h"
 
 namespace drape {
 
@@ -29,6 +30,12 @@ enum class FreeDrape {
   ramp,     ///< by the protocol of that name
 };
 
+/// A vertex of one picture's drape to be popped.
+struct PicturePop {
+  size_t picture;
+  Pop pop;
+};
+
 class StagedFit {
  public:
   StagedFit(const std::vector<Picture>& pictures, const Fabric& start,
@@ -47,6 +54,11 @@ class StagedFit {
   /// Drapes that owe nothing to those at hand but what acts on them.
   bool drape_freely(FreeDrape how);
 
+  /// The vertices of the drapes at hand that may be popped, those near what is missed first.
+  std::vector<PicturePop> promising_pops() const;
+  /// The drapes at hand, free, with that vertex popped; false when there is none.
+  bool pop(const PicturePop& which);
+
   /// The start states that the pictures bring.
   void take_start_states();
 
@@ -57,16 +69,27 @@ class StagedFit {
   /// Minimises over the unknowns on the branches at hand. True where that has converged.
   bool minimise(double tolerance, int max_iterations);
 
+  /// Residuals of the drapes at hand and their Jacobian over the unknowns; false where one is not
+  /// known.
+  bool linearise(VecX& residuals, MatX& jacobian);
+
   const FitState& state() const { return state_; }
   /// Goes back to a state: its unknowns, its drapes, its guides' strength.
   void take_up(const FitState& state) { state_ = state; }
   /// Goes back to unknowns alone; the drapes are to be laid again.
   void set_unknowns(const VecX& u);
+  /// The first unknowns, every logarithm moved by up to log(5): the `index`-th of points that
+  /// spread evenly (Halton 1960).
+  void scatter_unknowns(int index);
   /// Whether the drapes at hand are those of `state`: the same fabric and the same equilibria.
   bool is_at(const FitState& state) const;
+  /// The same for the ends of two fits.
+  bool is_near(const FitState& state) const;
 
   /// Largest rms miss of an outline over the standard deviation of its noise.
   double largest_miss() const;
+  /// The same in length [m].
+  double largest_rms() const;
   /// Whether every drape has as many nodes as its picture.
   bool same_nodes() const;
   VecX profile_of(size_t picture) const;
@@ -78,11 +101,12 @@ class StagedFit {
   /// factor of Birge 1932), so that what the model cannot explain widens the intervals.
   Posterior posterior();
 
-  int forward_solves() const { return solves_ + objective_.solves(); }
+  int forward_solves() const { return solves_ + pops_ + objective_.solves(); }
+  int pops() const { return pops_; }  ///< of these, after a pop
   int iterations() const { return iterations_; }
-  /// Whether the forward solves allowed (EstimateOptions::max_solves) are spent.
+  /// Whether the forward solves allowed (EstimateOptions::max_solves) are spent, pops apart.
   bool spent() const {
-    return forward_solves() >= options_.max_solves * static_cast<int>(pictures());
+    return forward_solves() - pops_ >= options_.max_solves * static_cast<int>(pictures());
   }
 
  private:
@@ -90,6 +114,7 @@ class StagedFit {
   size_t pictures() const { return potentials_.size(); }
   const Picture& picture(size_t i) const { return objective_.picture(i); }
   Guide guide_of(size_t i, double kappa) const;
+  double rms_of(size_t i) const;
   bool lay_along(size_t i, const GuidedStart& start);
   Equilibrium drape_freely(size_t i, FreeDrape how) const;
   bool replace_drapes(std::vector<Equilibrium> drapes, double kappa);
@@ -103,7 +128,7 @@ class StagedFit {
   std::vector<Potential> potentials_;  // with the last guides
   int guide_harmonics_;
   FitState state_;
-  int solves_ = 0, iterations_ = 0;
+  int solves_ = 0, pops_ = 0, iterations_ = 0;
 };
 
 }  // namespace drape

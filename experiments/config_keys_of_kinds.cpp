@@ -129,9 +129,15 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("estimate", "guide_harmonics", "", {1, 180, true},
       "Harmonics of the profile that start and guide follow.",
       DRAPE_MEMBER(estimate.guide_harmonics));
+  add("estimate", "max_restarts", "", {0, 10000, true},
+      "Fits from other first parameters that are tried where a misfit remains.",
+      DRAPE_MEMBER(estimate.max_restarts));
   add("estimate", "max_moves", "", {0, 10000, true},
-      "Moves to neighbouring branches that are tried where a misfit remains.",
+      "Moves to neighbouring branches that are tried where one still remains.",
       DRAPE_MEMBER(estimate.max_moves));
+  add("estimate", "max_pops", "", {0, 1'000'000, true},
+      "Single vertices of the mesh that are popped through where not even those explain the outline.",
+      DRAPE_MEMBER(estimate.max_pops));
 
   add("photograph", "files", "", kAny,
       "PNG or JPEG with one silhouette each, seen from above: pictures of one fabric's specimens, "

@@ -105,7 +105,9 @@ EstimateOptions estimate_options(const Settings& settings) {
   options.misfit = {settings.estimate.loss, settings.estimate.huber};
   options.guide = settings.estimate.guide;
   options.guide_harmonics = settings.estimate.guide_harmonics;
+  options.max_restarts = settings.estimate.max_restarts;
   options.max_moves = settings.estimate.max_moves;
+  options.max_pops = settings.estimate.max_pops;
   options.bound_factor = settings.estimate.bounds;
   options.max_iterations = settings.estimate.max_iterations;
   options.contact = settings.contact;

@@ -85,6 +85,7 @@ const StiffWarp& stiff_warp() {
 
 TEST(BranchSearch, ANeighbourIsLeftForTheBranchObserved) {
   EstimateOptions options;
+  options.max_restarts = options.max_pops = 0;
   options.max_moves = 0;
   const Estimate left_alone = estimate({stiff_warp().picture()}, StiffWarp::start(), options);
   EXPECT_EQ(standing(left_alone.outcome), standing(EstimateOutcome::misfit))

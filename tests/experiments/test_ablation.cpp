@@ -121,7 +121,8 @@ TEST_F(AblationOfPhotographs, SaysHowFarDrapesAreFromThem) {
                 "experiment.kind = \"ablation\"\nmesh.vertices = 300\n"
                 "[ablation]\ndrape_coefficients = [85]\nlargest_vertices = 0\n"
                 "ingredients = [\"shear_soft\", \"contact_off\"]\n"
-                "[photographs]\nfolder = \"photos\"\n[estimate]\nmax_moves = 0\n"
+                "[photographs]\nfolder = \"photos\"\n[estimate]\nmax_restarts = 0\nmax_moves = "
+                "0\nmax_pops = 0\n"
                 "[photograph]\nmm_per_pixel = 2.78\nwarp_angles = [90]\noutline_noise = 6e-3\n");
   const Ended ended = drape("run a.toml --out out --threads 1");
   ASSERT_EQ(ended.exit_code, 0) << ended.text;

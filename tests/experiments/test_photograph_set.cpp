@@ -24,7 +24,7 @@ TEST_F(PhotographSet, FitsEveryFabricInAFolderOfItsOwn) {
   const std::string command =
       "estimate --manifest m.csv --out out --threads 1 --set mesh.vertices=300"
       " --set photograph.warp_angles=[90] --set photograph.outline_noise=6e-3"
-      " --set estimate.max_moves=0";
+      " --set estimate.max_restarts=0 --set estimate.max_moves=0 --set estimate.max_pops=0";
   const Ended first = drape(command);
   EXPECT_TRUE(first.exit_code == 0 || first.exit_code == 3)
       << first.text;  // a drawn drape may not exist
