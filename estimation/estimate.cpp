@@ -21,6 +21,7 @@ constexpr double kFinalTolerance =
 constexpr int kNeighbourIterations = 8;  // on the right branch they reach the noise
 constexpr double kWorthFitting = 2;      // miss of a neighbour over that of the best
 constexpr double kBetter = 0.9;
+constexpr double kFarFrom = 2;  // explained, of the noise; below, what is missed may be the model's
 constexpr double kPopsMove = 1e-3;  // rms of an outline, at most [m]
 
 /// What became of a fit from one start.
@@ -103,11 +104,12 @@ class Estimation {
     return best;
   }
 
-  /// The same from other first unknowns, each laid once; then moves from the best of them, if it is
-  /// better than the one that there was.
+  /// Where the outlines are far from explained: the same from other first unknowns, each laid once;
+  /// then moves from the best of them, if it is better than the one that there was.
   Attempt with_restarts(Attempt best) {
     bool better = false;
-    for (int i = 1; i <= options_.max_restarts && !is_explained(best) && !fit_.spent(); ++i) {
+    for (int i = 1; i <= options_.max_restarts && !fit_.spent(); ++i) {
+      if (best.free() && best.miss < kFarFrom) break;
       fit_.scatter_unknowns(i);
       if (!fit_.lay_along(guided_starts(options_.guide, options_.guide_harmonics).front()))
         continue;

@@ -130,13 +130,14 @@ void add_keys_of_kinds(ConfigKeyList& add) {
       "Harmonics of the profile that start and guide follow.",
       DRAPE_MEMBER(estimate.guide_harmonics));
   add("estimate", "max_restarts", "", {0, 10000, true},
-      "Fits from other first parameters that are tried where a misfit remains.",
+      "Fits from other first parameters that are tried where a misfit of twice the noise remains.",
       DRAPE_MEMBER(estimate.max_restarts));
   add("estimate", "max_moves", "", {0, 10000, true},
       "Moves to neighbouring branches that are tried where one still remains.",
       DRAPE_MEMBER(estimate.max_moves));
   add("estimate", "max_pops", "", {0, 1'000'000, true},
-      "Single vertices of the mesh that are popped through where not even those explain the outline.",
+      "Single vertices of the mesh that are popped through where not even those explain the "
+      "outline.",
       DRAPE_MEMBER(estimate.max_pops));
 
   add("photograph", "files", "", kAny,
