@@ -135,7 +135,6 @@ class Estimation {
   /// Pops vertices of the best free drape, and moves on from what that leads to.
   Attempt with_pops(Attempt best) {
     if (!best.free()) return best;
-    const Attempt first = best;
     bool better = false;
     for (int left = options_.max_pops; left > 0 && !explains_well(best.miss);) {
       fit_.take_up(best.state);
@@ -148,7 +147,7 @@ class Estimation {
       better = true;
       if (!move(best)) break;
     }
-    return better ? released_from(best) : first;
+    return better ? released_from(best) : best;
   }
 
   Attempt released_from(const Attempt& best) {

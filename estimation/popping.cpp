@@ -77,7 +77,7 @@ class PopSearch {
     fit_.take_up(from.state);
     VecX r;
     MatX jacobian;
-    if (!fit_.set_guides(0) || !fit_.linearise(r, jacobian)) return;
+    if (!fit_.set_guides(0) || !fit_.residuals(r, &jacobian)) return;
     const ReachableResidual left(jacobian, from.miss, kReach);
     const double size = r.norm() / from.miss;
     std::vector<Popped> popped;
@@ -85,8 +85,7 @@ class PopSearch {
     for (const PicturePop& pop : fit_.promising_pops()) {
       if (left_-- <= 0) break;
       fit_.take_up(from.state);
-      if (fit_.pop(pop) && !fit_.is_at(from.state) && fit_.same_nodes() &&
-          fit_.linearise(r, jacobian))
+      if (fit_.pop(pop) && !fit_.is_at(from.state) && fit_.same_nodes() && fit_.residuals(r))
         popped.push_back({left.norm(r) / size, false, fit_.state()});
       if (++tried % kBatch == 0 && std::ranges::any_of(popped, [&](const Popped& one) {
             return one.miss < kMuch * from.miss;

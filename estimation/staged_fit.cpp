@@ -20,7 +20,7 @@ namespace {
 constexpr double kOvershootKappa = 1;
 constexpr double kLeastHeight = 0.04;  // of a vertex that pops, over its distance from others
 constexpr double kNearby = 0.15;       // [rad]
-constexpr double kSpread = 5;
+constexpr double kSpread = 5;          // of first parameters, either way
 constexpr std::array kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41};
 constexpr double kNearFit = 1e-2, kNearDrape = 1e-4;  // ends of fits are rough; [m]
 constexpr double kSameDrape = 1e-5;     // [m]: neighbours differ by tenths of a millimetre
@@ -56,7 +56,8 @@ StagedFit::StagedFit(const std::vector<Picture>& pictures, const Fabric& start,
 void StagedFit::set_unknowns(const VecX& u) {
   if (u == state_.u) return;
   state_.u = u;
-  state_.fabric = space().decode(u.head(space().size()));
+  const VecX z = u.head(space().size());
+  state_.fabric = z == space().encode(start_) ? start_ : space().decode(z);  // to the last bit
 }
 
 void StagedFit::scatter_unknowns(int index) {
@@ -135,13 +136,13 @@ bool StagedFit::set_guides(double kappa) {
     potential.set_guide(kappa > 0 ? std::optional(guide_of(i, kappa)) : std::nullopt);
     drapes.push_back(
         solve_equilibrium(potential, state_.pictures[i].equilibrium.x, options_.equilibrium));
+    ++solves_;
   }
   return replace_drapes(std::move(drapes), kappa);
 }
 
 /// Makes the drapes under guides of strength kappa those at hand, if all are equilibria.
 bool StagedFit::replace_drapes(std::vector<Equilibrium> drapes, double kappa) {
-  solves_ += static_cast<int>(drapes.size());
   for (size_t i = 0; i < pictures(); ++i) {
     drapes[i].protocol = state_.pictures[i].equilibrium.protocol;
     if (drapes[i].converged()) continue;
@@ -174,9 +175,9 @@ bool StagedFit::overshoot(double factor) {
                                       guide_harmonics_, kOvershootKappa));
     const Equilibrium pulled =
         solve_equilibrium(potential, state_.pictures[i].equilibrium.x, options_.equilibrium);
-    ++solves_;
     potential.set_guide(std::nullopt);
     drapes.push_back(solve_equilibrium(potential, pulled.x, options_.equilibrium));
+    solves_ += 2;
   }
   return replace_drapes(std::move(drapes), 0);
 }
@@ -219,10 +220,7 @@ bool StagedFit::pop(const PicturePop& which) {
   x.segment<3>(3 * which.pop.vertex) = which.pop.to;
   drape = solve_equilibrium(potential, x, options_.equilibrium, drape.preconditioner);
   ++pops_;
-  const int solves = solves_;
-  const bool replaced = replace_drapes(std::move(drapes), 0);
-  solves_ = solves;
-  return replaced;
+  return replace_drapes(std::move(drapes), 0);
 }
 
 Equilibrium StagedFit::drape_freely(size_t i, FreeDrape how) const {
@@ -256,6 +254,7 @@ bool StagedFit::drape_freely(FreeDrape how) {
     potentials_[i].set_fabric(state_.fabric);
     potentials_[i].set_guide(std::nullopt);
     drapes.push_back(drape_freely(i, how));
+    ++solves_;
   }
   return replace_drapes(std::move(drapes), 0);
 }
@@ -312,15 +311,19 @@ bool StagedFit::keep_drapes(const VecX& u) {
 }
 
 bool StagedFit::is_at(const FitState& state) const {
-  bool same = state_.u == state.u && state_.kappa == state.kappa;
-  for (size_t i = 0; same && i < pictures(); ++i)
-    same = largest_distance(state_.pictures[i].equilibrium.x, state.pictures[i].equilibrium.x) <
-           kSameDrape;
-  return same;
+  return state_.u == state.u && state_.kappa == state.kappa && drapes_within(kSameDrape, state);
 }
 
-bool StagedFit::linearise(VecX& residuals, MatX& jacobian) {
-  return objective_.residuals_at(state_.u, residuals, &jacobian);
+bool StagedFit::drapes_within(double distance, const FitState& of) const {
+  bool within = true;
+  for (size_t i = 0; within && i < pictures(); ++i)
+    within =
+        largest_distance(state_.pictures[i].equilibrium.x, of.pictures[i].equilibrium.x) < distance;
+  return within;
+}
+
+bool StagedFit::residuals(VecX& r, MatX* jacobian) {
+  return objective_.residuals_at(state_.u, r, jacobian);
 }
 
 VecX StagedFit::profile_of(size_t i) const {
@@ -330,11 +333,7 @@ VecX StagedFit::profile_of(size_t i) const {
 }
 
 bool StagedFit::is_near(const FitState& state) const {
-  bool near = (state_.u - state.u).cwiseAbs().maxCoeff() < kNearFit;
-  for (size_t i = 0; near && i < pictures(); ++i)
-    near = largest_distance(state_.pictures[i].equilibrium.x, state.pictures[i].equilibrium.x) <
-           kNearDrape;
-  return near;
+  return (state_.u - state.u).cwiseAbs().maxCoeff() < kNearFit && drapes_within(kNearDrape, state);
 }
 
 double StagedFit::largest_miss() const {

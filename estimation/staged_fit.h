@@ -69,9 +69,9 @@ class StagedFit {
   /// Minimises over the unknowns on the branches at hand. True where that has converged.
   bool minimise(double tolerance, int max_iterations);
 
-  /// Residuals of the drapes at hand and their Jacobian over the unknowns; false where one is not
-  /// known.
-  bool linearise(VecX& residuals, MatX& jacobian);
+  /// Residuals of the drapes at hand and, if wanted, their Jacobian over the unknowns; false where
+  /// one is not known.
+  bool residuals(VecX& r, MatX* jacobian = nullptr);
 
   const FitState& state() const { return state_; }
   /// Goes back to a state: its unknowns, its drapes, its guides' strength.
@@ -118,6 +118,7 @@ class StagedFit {
   bool lay_along(size_t i, const GuidedStart& start);
   Equilibrium drape_freely(size_t i, FreeDrape how) const;
   bool replace_drapes(std::vector<Equilibrium> drapes, double kappa);
+  bool drapes_within(double distance, const FitState& of) const;
   ContinuationOptions continuation() const;
   void make_known(size_t i);
   bool keep_drapes(const VecX& u);

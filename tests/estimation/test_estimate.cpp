@@ -160,7 +160,7 @@ TEST(Estimate, NoGuidedDrapeIsAnOutcome) {
   options.equilibrium.max_iterations = 1;
   const Estimate found = estimate({truth().picture()}, truth().start(), options);
   EXPECT_EQ(found.outcome, EstimateOutcome::no_start);
-  EXPECT_DOUBLE_EQ(found.fabric.k_bu, truth().start().k_bu);
+  EXPECT_EQ(found.fabric.k_bu, truth().start().k_bu);
 }
 
 TEST(Estimate, ContactIsDecidedAtTheStartAndHeld) {
