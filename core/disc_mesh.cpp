@@ -16,28 +16,41 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kMinimumVertices = 200;
 
-/// How many vertices go where for edges of length h.
-struct Counts {
-  int rim, clamp, inside;
+/// The length of edges at a distance from the clamp line, over that at the rim.
+struct Grading {
+  double at(double distance) const {
+    // short in the first twelfth of the overhang, growing until 5/12 of it
+    const double grown = std::clamp(3 * distance / overhang - 0.25, 0.0, 1.0);
+    return 1 + (1 / refinement - 1) * (1 - grown);
+  }
+  double refinement, overhang;
 };
 
-/// The vertices of the fixed ring are as many as those on the clamp circle.
-Counts counts_for(const Scene& scene, double h, int total) {
-  const int rim = static_cast<int>(std::lround(2 * kPi * scene.specimen_radius / h));
-  const int clamp = static_cast<int>(std::lround(2 * kPi * scene.support_radius / h));
-  return {rim, clamp, total - rim - 2 * clamp};
+/// How many vertices go where. The vertices of the fixed ring are as many as those on the clamp.
+struct Counts {
+  double rim, clamp, inside;
+  double total() const { return rim + 2 * clamp + inside; }
+};
+
+/// For edges of length h at the rim.
+Counts counts_for(const Scene& scene, const Grading& grading, double h) {
+  constexpr int kRings = 1000;
+  double squares = 0;
+  for (int i = 0; i < kRings; ++i) {
+    const double distance = (i + 0.5) / kRings * grading.overhang;
+    const double ring = 2 * kPi * (scene.support_radius + distance) * grading.overhang / kRings;
+    squares += ring / std::pow(h * grading.at(distance), 2);
+  }
+  const double rim = 2 * kPi * scene.specimen_radius / h;
+  const double clamp = 2 * kPi * scene.support_radius / (h * grading.at(0));
+  return {rim, clamp, inside_count(squares, rim + clamp)};
 }
 
-double edge_length_for(const Scene& scene, int total) {
-  const double annulus =
-      kPi * (std::pow(scene.specimen_radius, 2) - std::pow(scene.support_radius, 2));
+double edge_length_for(const Scene& scene, const Grading& grading, int total) {
   double low = 1e-3 * scene.specimen_radius, high = scene.specimen_radius;
   for (int i = 0; i < 100; ++i) {
     const double h = (low + high) / 2;
-    const double rim = 2 * kPi * scene.specimen_radius / h;
-    const double clamp = 2 * kPi * scene.support_radius / h;
-    const double inside = inside_count(annulus, h, rim + clamp);
-    (inside + rim + 2 * clamp > total ? low : high) = h;
+    (counts_for(scene, grading, h).total() > total ? low : high) = h;
   }
   return low;
 }
@@ -49,20 +62,27 @@ void set_circle(Points2& points, int first, int count, double radius, double pha
   }
 }
 
-/// Uniform points in the open annulus.
-void set_inside(Points2& points, int first, const Scene& scene, double margin, Random& random) {
-  const double inner = std::pow(scene.support_radius + margin, 2);
-  const double outer = std::pow(scene.specimen_radius - margin, 2);
-  for (Eigen::Index i = first; i < points.rows(); ++i) {
+/// Radii that vertices inside may have.
+struct Radii {
+  double low, high;
+};
+
+/// Random points in the open annulus, as many on an area as edges ask for.
+void set_inside(Points2& points, int first, const Scene& scene, const Grading& grading,
+                const Radii& radii, Random& random) {
+  const double inner = radii.low * radii.low, outer = radii.high * radii.high;
+  for (Eigen::Index i = first; i < points.rows();) {
     const Vec2 p = uniform_point(random);
     const double radius = std::sqrt(inner + (outer - inner) * p.x());
-    points.row(i) = radius * Vec2(std::cos(2 * kPi * p.y()), std::sin(2 * kPi * p.y()));
+    const double share = std::pow(grading.at(0) / grading.at(radius - scene.support_radius), 2);
+    if (share < 1 && random.uniform() > share) continue;
+    points.row(i++) = radius * Vec2(std::cos(2 * kPi * p.y()), std::sin(2 * kPi * p.y()));
   }
 }
 
 /// The annulus; the triangles inside of the clamp circle have all corners on it.
-MeshRegion annulus(const Scene& scene, int first_clamp, int first_inside, double margin) {
-  const double low = scene.support_radius + margin, high = scene.specimen_radius - margin;
+MeshRegion annulus(const Scene& scene, const Grading& grading, int first_clamp, int first_inside,
+                   const Radii& radii) {
   return {first_inside,
           [=](const Eigen::RowVector3i& triangle) {
             return (triangle.array() < first_clamp).any() ||
@@ -70,8 +90,9 @@ MeshRegion annulus(const Scene& scene, int first_clamp, int first_inside, double
           },
           [=](const Vec2& p) -> Vec2 {
             const double radius = p.norm();
-            return p * (std::clamp(radius, low, high) / radius);
-          }};
+            return p * (std::clamp(radius, radii.low, radii.high) / radius);
+          },
+          [=](const Vec2& p) { return std::pow(grading.at(p.norm() - scene.support_radius), -4); }};
 }
 
 }  // namespace
@@ -81,20 +102,32 @@ Mesh make_disc_mesh(const Scene& scene, const DiscMeshOptions& options) {
   if (options.vertices < kMinimumVertices)
     throw std::invalid_argument("mesh vertices = " + std::to_string(options.vertices) +
                                 ": must be at least " + std::to_string(kMinimumVertices));
-  const double h = edge_length_for(scene, options.vertices);
-  const Counts counts = counts_for(scene, h, options.vertices);
-  const double row_height = std::sqrt(3.0) / 2 * h;
-  const int first_clamp = counts.rim, first_inside = counts.rim + counts.clamp;
+  if (!(options.clamp_refinement >= 1 && options.clamp_refinement <= 4))
+    throw std::invalid_argument(
+        "mesh clamp_refinement = " + std::to_string(options.clamp_refinement) +
+        ": must be between 1 and 4");
+  const Grading grading{options.clamp_refinement, scene.specimen_radius - scene.support_radius};
+  const double h = edge_length_for(scene, grading, options.vertices);
+  const Counts counts = counts_for(scene, grading, h);
+  const auto rim = static_cast<int>(std::lround(counts.rim));
+  const auto clamp = static_cast<int>(std::lround(counts.clamp));
+  const int first_clamp = rim, first_inside = rim + clamp;
+  const int first_back = options.vertices - clamp;
+  const auto radii = [&](double rows) -> Radii {
+    const double row_height = std::sqrt(3.0) / 2 * h;
+    return {scene.support_radius + rows * grading.at(0) * row_height,
+            scene.specimen_radius - rows * row_height};
+  };
 
   Random random(options.seed);
-  Points2 points(first_inside + counts.inside, 2);
-  set_circle(points, 0, counts.rim, scene.specimen_radius, random.uniform());
-  set_circle(points, first_clamp, counts.clamp, scene.support_radius, random.uniform());
-  set_inside(points, first_inside, scene, 0.5 * row_height, random);
-  const MeshRegion region = annulus(scene, first_clamp, first_inside, 0.6 * row_height);
+  Points2 points(first_back, 2);
+  set_circle(points, 0, rim, scene.specimen_radius, random.uniform());
+  set_circle(points, first_clamp, clamp, scene.support_radius, random.uniform());
+  set_inside(points, first_inside, scene, grading, radii(0.5), random);
+  const MeshRegion region = annulus(scene, grading, first_clamp, first_inside, radii(0.6));
   relax(points, region);
   Triangles triangles = region_triangles(points, region);
-  add_fixed_row(points, triangles, first_clamp, counts.clamp, true);
+  add_fixed_row(points, triangles, first_clamp, clamp, true);
 
   const Eigen::Rotation2Dd turn(options.rotation);
   for (Eigen::Index i = 0; i < points.rows(); ++i)
@@ -102,8 +135,7 @@ Mesh make_disc_mesh(const Scene& scene, const DiscMeshOptions& options) {
 
   std::vector<std::uint8_t> fixed(static_cast<size_t>(points.rows()), 0);
   for (Eigen::Index i = 0; i < points.rows(); ++i)
-    fixed[static_cast<size_t>(i)] =
-        (i >= first_clamp && i < first_inside) || i >= first_inside + counts.inside;
+    fixed[static_cast<size_t>(i)] = (i >= first_clamp && i < first_inside) || i >= first_back;
   return make_mesh(std::move(points), std::move(triangles), std::move(fixed),
                    options.clamp_wing_factor);
 }

@@ -21,10 +21,10 @@ Vec2 circumcentre(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 /// Every inside point moves past the centroid of its Voronoi cell, summed over signed triangles
-/// (point, circumcentre, midpoint of an edge).
+/// (point, circumcentre, midpoint of an edge) with the density in their middle.
 void relax_once(Points2& points, const MeshRegion& region) {
   const Triangles triangles = region_triangles(points, region);
-  VecX area = VecX::Zero(points.rows());
+  VecX mass = VecX::Zero(points.rows());
   Points2 moment = Points2::Zero(points.rows(), 2);
   for (int t = 0; t < triangles.rows(); ++t) {
     Vec2 corner[3];
@@ -33,25 +33,27 @@ void relax_once(Points2& points, const MeshRegion& region) {
     for (int k = 0; k < 3; ++k) {
       const Vec2& p = corner[k];
       const auto add = [&](const Vec2& a, const Vec2& b) {
+        const Vec2 middle = (p + a + b) / 3;
         const double signed_area = ((a - p).x() * (b - p).y() - (a - p).y() * (b - p).x()) / 2;
-        area[triangles(t, k)] += signed_area;
-        moment.row(triangles(t, k)) += signed_area * (p + a + b).transpose() / 3;
+        const double share = signed_area * region.density(middle);
+        mass[triangles(t, k)] += share;
+        moment.row(triangles(t, k)) += share * middle.transpose();
       };
       add((p + corner[(k + 1) % 3]) / 2, centre);
       add(centre, (p + corner[(k + 2) % 3]) / 2);
     }
   }
   for (Eigen::Index i = region.boundary_points; i < points.rows(); ++i) {
-    if (!(area[i] > 0)) continue;
-    const Vec2 centroid = moment.row(i).transpose() / area[i], here = points.row(i);
+    if (!(mass[i] > 0)) continue;
+    const Vec2 centroid = moment.row(i).transpose() / mass[i], here = points.row(i);
     points.row(i) = region.restrain(here + kOverRelaxation * (centroid - here));
   }
 }
 
 }  // namespace
 
-double inside_count(double area, double h, double boundary) {
-  return area / (std::sqrt(3.0) / 2 * h * h) - boundary / 2;
+double inside_count(double squares, double boundary) {
+  return squares / (std::sqrt(3.0) / 2) - boundary / 2;
 }
 
 Vec2 uniform_point(Random& random) {

@@ -20,11 +20,14 @@ struct MeshRegion {
   std::function<bool(const Eigen::RowVector3i&)> contains;
   /// The allowed place nearest to a point on its way [m].
   std::function<Vec2(const Vec2&)> restrain;
+  /// Where edges of length h are wanted: proportional to h^-4 (Du, Faber and Gunzburger 1999).
+  std::function<double(const Vec2&)> density = [](const Vec2&) { return 1.0; };
 };
 
-/// Vertices inside of a region of the given area for equilateral triangles of edge h: by Euler,
-/// area / (sqrt(3)/4 h^2) = 2 inside + boundary triangles, less 2 for a region without a hole.
-double inside_count(double area, double h, double boundary);
+/// Vertices inside of a region for equilateral triangles of edge h: by Euler, area / (sqrt(3)/4
+/// h^2) = 2 inside + boundary triangles, less 2 for a region without a hole. `squares`: area / h^2,
+/// or its integral where h varies.
+double inside_count(double squares, double boundary);
 
 /// A point of the unit square.
 Vec2 uniform_point(Random& random);
@@ -32,8 +35,8 @@ Vec2 uniform_point(Random& random);
 /// Delaunay triangles of the points that belong to the region.
 Triangles region_triangles(const Points2& points, const MeshRegion& region);
 
-/// Moves the points inside towards the centroids of their Voronoi cells and beyond (over-relaxed),
-/// 40 times.
+/// Moves the points inside towards the centroids of their Voronoi cells, weighted by the density,
+/// and beyond (over-relaxed), 40 times.
 void relax(Points2& points, const MeshRegion& region);
 
 /// The fixed row behind a clamp line: one triangle behind every edge, as high as the one in front,

@@ -60,6 +60,9 @@ void add_common_keys(ConfigKeyList& add) {
   add("mesh", "clamp_wing_factor", "", kPositive,
       "Weight of the wings on the clamp line; 1 makes the rim too soft.",
       DRAPE_MEMBER(mesh.clamp_wing_factor));
+  add("mesh", "clamp_refinement", "", {1, 4, true},
+      "Edges at the rim over edges at the clamp, where drapes bend most; 1: all alike.",
+      DRAPE_MEMBER(mesh.clamp_refinement));
 
   add("solver", "tolerance", "", {0, 1, false},
       "Relative residual at rest: largest nodal force over largest nodal weight.",

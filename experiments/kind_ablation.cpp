@@ -59,9 +59,9 @@ class Meshes {
   }
 
  private:
-  using Key = std::tuple<int, std::uint64_t, double>;
+  using Key = std::tuple<int, std::uint64_t, double, double>;
   static Key key(const MeshSettings& mesh) {
-    return {mesh.vertices.value(), mesh.seed, mesh.clamp_wing_factor};
+    return {mesh.vertices.value(), mesh.seed, mesh.clamp_wing_factor, mesh.clamp_refinement};
   }
   void add(const Settings& settings) {
     auto& mesh = meshes_[key(settings.mesh)];

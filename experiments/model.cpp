@@ -26,7 +26,8 @@ DiscMeshOptions mesh_options(const Settings& settings, int vertices) {
   return {.vertices = vertices,
           .seed = settings.mesh.seed,
           .rotation = settings.mesh.rotation,
-          .clamp_wing_factor = settings.mesh.clamp_wing_factor};
+          .clamp_wing_factor = settings.mesh.clamp_wing_factor,
+          .clamp_refinement = settings.mesh.clamp_refinement};
 }
 
 Observation nothing_seen(const PixelGrid& grid) {

@@ -88,6 +88,32 @@ TEST(DiscMesh, TheFixedRingIsAsHighAsTheTrianglesOutside) {
   }
 }
 
+/// Mean length of the inner edges whose middles are at these distances from the clamp line.
+double mean_edge(const Mesh& mesh, double from, double to) {
+  double sum = 0;
+  int count = 0;
+  for (const Wing& wing : mesh.wings) {
+    const Vec2 a = mesh.rest_uv.row(wing.vertices[0]), b = mesh.rest_uv.row(wing.vertices[1]);
+    const double distance = (a + b).norm() / 2 - kCusick.support_radius;
+    if (distance < from || distance > to) continue;
+    sum += (b - a).norm();
+    ++count;
+  }
+  return sum / count;
+}
+
+TEST(DiscMesh, EdgesAtTheClampAreShorterByTheRefinement) {
+  double last = 1;
+  for (const double refinement : {1.0, 2.0, 3.0}) {
+    const Mesh mesh = make_disc_mesh(kCusick, {.vertices = 2000, .clamp_refinement = refinement});
+    EXPECT_EQ(mesh.vertex_count(), 2000);
+    const double clamp = mean_edge(mesh, 0, 0.004), rim = mean_edge(mesh, 0.03, 0.06);
+    EXPECT_NEAR(rim / clamp, refinement, 0.1 * refinement);  // 2: 1.89, 3: 2.75 measured
+    EXPECT_LT(clamp, last);
+    last = clamp;
+  }
+}
+
 TEST(DiscMesh, TrianglesAreWellShaped) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Mesh mesh = make_disc_mesh(kCusick, {.vertices = 1000, .seed = seed});
@@ -148,6 +174,8 @@ TEST(DiscMesh, WingsOfOtherDirectionsShareInEveryBend) {
 
 TEST(DiscMesh, RefusesBadInput) {
   EXPECT_THROW(make_disc_mesh(kCusick, {.vertices = 199}), std::invalid_argument);
+  EXPECT_THROW(make_disc_mesh(kCusick, {.clamp_refinement = 0.9}), std::invalid_argument);
+  EXPECT_THROW(make_disc_mesh(kCusick, {.clamp_refinement = 4.1}), std::invalid_argument);
   Scene scene;
   scene.support_radius = scene.specimen_radius;
   EXPECT_THROW(make_disc_mesh(scene, {}), std::invalid_argument);

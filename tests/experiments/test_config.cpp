@@ -52,7 +52,9 @@ ConfigValue another_value(const ConfigKey& key) {
     case ValueType::integer_or_auto:
       return std::string(kAuto);
     case ValueType::number:
-      return key.range.contains(0.1 + 0.2) ? 0.1 + 0.2 : 100. / 3;
+      for (const double number : {0.1 + 0.2, 10. / 3})
+        if (key.range.contains(number)) return number;
+      return 100. / 3;
     case ValueType::choice:
       return std::get<std::string>(value) == key.choices.back() ? key.choices.front()
                                                                 : key.choices.back();
