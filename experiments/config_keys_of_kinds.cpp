@@ -129,6 +129,9 @@ void add_keys_of_kinds(ConfigKeyList& add) {
   add("estimate", "guide_harmonics", "", {1, 180, true},
       "Harmonics of the profile that start and guide follow.",
       DRAPE_MEMBER(estimate.guide_harmonics));
+  add("estimate", "max_solves", "", at_least(1),
+      "Forward solves of one fit a picture at most, over all that is tried.",
+      DRAPE_MEMBER(estimate.max_solves));
   add("estimate", "max_restarts", "", {0, 10000, true},
       "Fits from other first parameters that are tried where a misfit of twice the noise remains.",
       DRAPE_MEMBER(estimate.max_restarts));

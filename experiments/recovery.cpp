@@ -108,6 +108,7 @@ EstimateOptions estimate_options(const Settings& settings) {
   options.max_restarts = settings.estimate.max_restarts;
   options.max_moves = settings.estimate.max_moves;
   options.max_pops = settings.estimate.max_pops;
+  options.max_solves = settings.estimate.max_solves;
   options.bound_factor = settings.estimate.bounds;
   options.max_iterations = settings.estimate.max_iterations;
   options.contact = settings.contact;

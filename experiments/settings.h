@@ -152,9 +152,10 @@ struct EstimateSettings {
   EstimateStart start = EstimateStart::guided;
   int guide_harmonics = 24;
   std::vector<double> guide{1, 0.1, 0.01};
-  int max_restarts = 8;  ///< from other first parameters where a misfit remains
-  int max_moves = 50;    ///< to neighbouring branches
-  int max_pops = 2000;   ///< of single vertices
+  int max_restarts = 8;   ///< from other first parameters where a misfit remains
+  int max_moves = 50;     ///< to neighbouring branches
+  int max_pops = 2000;    ///< of single vertices
+  int max_solves = 3000;  ///< of one fit a picture
 };
 
 /// What fabrics a dataset without a table has.
