@@ -29,28 +29,36 @@ struct Grading {
 /// How many vertices go where. The vertices of the fixed ring are as many as those on the clamp.
 struct Counts {
   double rim, clamp, inside;
-  double total() const { return rim + 2 * clamp + inside; }
+  double total() const { return inside + rim + 2 * clamp; }
 };
 
-/// For edges of length h at the rim.
-Counts counts_for(const Scene& scene, const Grading& grading, double h) {
+/// The area of the annulus as edges count it, by the midpoint rule over rings of one width.
+double graded_area(const Scene& scene, const Grading& grading) {
   constexpr int kRings = 1000;
-  double squares = 0;
+  double plain = 0, graded = 0;
   for (int i = 0; i < kRings; ++i) {
     const double distance = (i + 0.5) / kRings * grading.overhang;
-    const double ring = 2 * kPi * (scene.support_radius + distance) * grading.overhang / kRings;
-    squares += ring / std::pow(h * grading.at(distance), 2);
+    const double radius = scene.support_radius + distance;
+    plain += radius;
+    graded += radius / std::pow(grading.at(distance), 2);
   }
-  const double rim = 2 * kPi * scene.specimen_radius / h;
-  const double clamp = 2 * kPi * scene.support_radius / (h * grading.at(0));
-  return {rim, clamp, inside_count(squares, rim + clamp)};
+  const double area =
+      kPi * (std::pow(scene.specimen_radius, 2) - std::pow(scene.support_radius, 2));
+  return area * (graded / plain);
 }
 
-double edge_length_for(const Scene& scene, const Grading& grading, int total) {
+/// For edges of length h at the rim.
+Counts counts_for(const Scene& scene, const Grading& grading, double area, double h) {
+  const double rim = 2 * kPi * scene.specimen_radius / h;
+  const double clamp = 2 * kPi * scene.support_radius / (h * grading.at(0));
+  return {rim, clamp, inside_count(area, h, rim + clamp)};
+}
+
+double edge_length_for(const Scene& scene, const Grading& grading, double area, int total) {
   double low = 1e-3 * scene.specimen_radius, high = scene.specimen_radius;
   for (int i = 0; i < 100; ++i) {
     const double h = (low + high) / 2;
-    (counts_for(scene, grading, h).total() > total ? low : high) = h;
+    (counts_for(scene, grading, area, h).total() > total ? low : high) = h;
   }
   return low;
 }
@@ -107,8 +115,9 @@ Mesh make_disc_mesh(const Scene& scene, const DiscMeshOptions& options) {
         "mesh clamp_refinement = " + std::to_string(options.clamp_refinement) +
         ": must be between 1 and 4");
   const Grading grading{options.clamp_refinement, scene.specimen_radius - scene.support_radius};
-  const double h = edge_length_for(scene, grading, options.vertices);
-  const Counts counts = counts_for(scene, grading, h);
+  const double area = graded_area(scene, grading);
+  const double h = edge_length_for(scene, grading, area, options.vertices);
+  const Counts counts = counts_for(scene, grading, area, h);
   const auto rim = static_cast<int>(std::lround(counts.rim));
   const auto clamp = static_cast<int>(std::lround(counts.clamp));
   const int first_clamp = rim, first_inside = rim + clamp;

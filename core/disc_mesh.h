@@ -3,10 +3,10 @@
 // Vertices lie exactly on the rim and on the clamp circle; the inside is a centroidal Voronoi
 // tessellation (Lloyd 1982, from random points), so no direction is preferred: with lattices or
 // concentric rings the hinge energy is up to 3 times stiffer in some directions. Edges near the
-// clamp are shorter: close to half of a drape's bending energy lies in the first 5 mm, where the
-// sheet bends over the edge of the support within sqrt(B / tension), 5 to 10 mm. The part on the
-// support is rigid and only one ring of its triangles is kept: each is as high over the clamp line
-// as the triangle outside, as the weight of those wings assumes.
+// clamp may be shorter: there the sheet bends over the edge of the support within sqrt(B /
+// tension), 5 to 10 mm. The part on the support is rigid and only one ring of its triangles is
+// kept: each is as high over the clamp line as the triangle outside, as the weight of those wings
+// assumes.
 #pragma once
 
 #include <cstdint>

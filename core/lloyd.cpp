@@ -33,11 +33,10 @@ void relax_once(Points2& points, const MeshRegion& region) {
     for (int k = 0; k < 3; ++k) {
       const Vec2& p = corner[k];
       const auto add = [&](const Vec2& a, const Vec2& b) {
-        const Vec2 middle = (p + a + b) / 3;
         const double signed_area = ((a - p).x() * (b - p).y() - (a - p).y() * (b - p).x()) / 2;
-        const double share = signed_area * region.density(middle);
+        const double share = signed_area * region.density((p + a + b) / 3);
         mass[triangles(t, k)] += share;
-        moment.row(triangles(t, k)) += share * middle.transpose();
+        moment.row(triangles(t, k)) += share * (p + a + b).transpose() / 3;
       };
       add((p + corner[(k + 1) % 3]) / 2, centre);
       add(centre, (p + corner[(k + 2) % 3]) / 2);
@@ -52,8 +51,8 @@ void relax_once(Points2& points, const MeshRegion& region) {
 
 }  // namespace
 
-double inside_count(double squares, double boundary) {
-  return squares / (std::sqrt(3.0) / 2) - boundary / 2;
+double inside_count(double area, double h, double boundary) {
+  return area / (std::sqrt(3.0) / 2 * h * h) - boundary / 2;
 }
 
 Vec2 uniform_point(Random& random) {

@@ -24,10 +24,9 @@ struct MeshRegion {
   std::function<double(const Vec2&)> density = [](const Vec2&) { return 1.0; };
 };
 
-/// Vertices inside of a region for equilateral triangles of edge h: by Euler, area / (sqrt(3)/4
-/// h^2) = 2 inside + boundary triangles, less 2 for a region without a hole. `squares`: area / h^2,
-/// or its integral where h varies.
-double inside_count(double squares, double boundary);
+/// Vertices inside of a region of the given area for equilateral triangles of edge h: by Euler,
+/// area / (sqrt(3)/4 h^2) = 2 inside + boundary triangles, less 2 for a region without a hole.
+double inside_count(double area, double h, double boundary);
 
 /// A point of the unit square.
 Vec2 uniform_point(Random& random);

@@ -46,7 +46,7 @@ Mesh make_strip_mesh(const StripMeshOptions& options) {
   add_side(boundary, {length, low}, {0, low}, along);
   const int clamp_count = across + 1, first_inside = static_cast<int>(boundary.size());
   const int inside =
-      static_cast<int>(std::lround(inside_count(length * width / (h * h), first_inside) + 1));
+      static_cast<int>(std::lround(inside_count(length * width, h, first_inside) + 1));
 
   Points2 points(first_inside + inside, 2);
   for (int i = 0; i < first_inside; ++i) points.row(i) = boundary[static_cast<size_t>(i)];
