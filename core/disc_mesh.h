@@ -22,7 +22,7 @@ struct DiscMeshOptions {
   double rotation = 0;     ///< of the mesh under the fabric [rad]
   double clamp_wing_factor =
       2;                        ///< weight of the wings on the clamp line; 1 makes the rim too soft
-  double clamp_refinement = 1;  ///< edges at the rim over edges at the clamp; 1: all alike
+  double clamp_refinement = 2;  ///< edges at the rim over edges at the clamp; 1: all alike
 };
 
 /// Deterministic for given options. Throws std::invalid_argument on fewer than 200 vertices, a

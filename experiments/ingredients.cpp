@@ -33,8 +33,8 @@ const std::vector<Ingredient>& ingredients() {
   static const std::vector<Ingredient> list{
       {"clamp_factor_1", "clamp wings weigh 1", AblationWay::warm,
        [](Settings& s) { s.mesh.clamp_wing_factor = 1; }},
-      {"clamp_refined", "edges halved at the clamp", AblationWay::warm,
-       [](Settings& s) { s.mesh.clamp_refinement = 2; }},
+      {"clamp_even", "edges at the clamp as long as elsewhere", AblationWay::warm,
+       [](Settings& s) { s.mesh.clamp_refinement = 1; }},
       {"mesh_half", "half the vertices", AblationWay::warm,
        [](Settings& s) { s.mesh.vertices = std::max(200, *s.mesh.vertices / 2); }},
       {"mesh_double", "twice the vertices", AblationWay::warm,

@@ -81,9 +81,10 @@ std::vector<Case> all_cases(const Settings& settings) {
       add("width", width, seed, bend(strip, kSlenderness));
     }
     for (const int vertices : v.plate_vertices)
-      for (const int factor : {1, 2})
-        add(factor == 1 ? "plate_single_clamp_weight" : "plate", vertices, seed,
-            [=] { return annulus_sag(vertices, seed, factor); });
+      for (const double factor : {1, 2})
+        add(factor == 1 ? "plate_single_clamp_weight" : "plate", vertices, seed, [=] {
+          return annulus_sag({.vertices = vertices, .seed = seed, .clamp_wing_factor = factor});
+        });
   }
   return cases;
 }

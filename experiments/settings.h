@@ -66,7 +66,7 @@ struct MeshSettings {
   std::uint64_t seed = 1;
   double rotation = 0;  ///< of the mesh under the fabric [rad]
   double clamp_wing_factor = 2;
-  double clamp_refinement = 1;  ///< edges at the rim over edges at the clamp
+  double clamp_refinement = 2;  ///< edges at the rim over edges at the clamp
 };
 
 struct SolverSettings {

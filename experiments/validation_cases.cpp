@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "core/bending.h"
-#include "core/disc_mesh.h"
 #include "core/dihedral_angle.h"
 #include "core/equilibrium.h"
 
@@ -158,10 +157,9 @@ Comparison hanging_strip(const StripMeshOptions& strip, const Fabric& fabric, do
   return result;
 }
 
-Comparison annulus_sag(int vertices, std::uint64_t seed, double clamp_wing_factor) {
+Comparison annulus_sag(const DiscMeshOptions& disc) {
   const Scene scene;
-  const auto d = std::make_shared<const Discretization>(make_disc_mesh(
-      scene, {.vertices = vertices, .seed = seed, .clamp_wing_factor = clamp_wing_factor}));
+  const auto d = std::make_shared<const Discretization>(make_disc_mesh(scene, disc));
   Fabric fabric = evenly_bent({}, 1);
   const CylinderRigidity unit = cylinder_rigidity(d->mesh(), fabric, 0);
   // B = .2 N m: the sag of 1.6e-5 m is 1/2000 of sqrt(12 B/k_u), the thickness of an equal plate,

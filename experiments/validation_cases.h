@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/fabric.h"
+#include "core/disc_mesh.h"
 #include "core/mesh.h"
 #include "core/strip_mesh.h"
 #include "experiments/references.h"
@@ -48,6 +49,6 @@ Comparison hanging_strip(const StripMeshOptions& strip, const Fabric& fabric, do
 
 /// The Cusick specimen so stiff that it sags by less than a thousandth of the overhang: mean sag of
 /// the rim [m]. Expected with the mesh's bulk rigidity and nu = -1/3.
-Comparison annulus_sag(int vertices, std::uint64_t seed, double clamp_wing_factor);
+Comparison annulus_sag(const DiscMeshOptions& disc);
 
 }  // namespace drape

@@ -59,7 +59,8 @@ def page(summary):
                 weight="bold")
     figure.text(6, 10.5, f"{summary['converged']} of {summary['solves']} solves at certified "
                 f"minima; orders of convergence in the edge length: cantilever "
-                f"{summary['cantilever_order']:.1f}, plate {summary['plate_order']:.1f}")
+                f"{_value(summary['cantilever_order'], 1)}, plate "
+                f"{_value(summary['plate_order'], 1)}")
     panels = [(cantilever, "slenderness"), (edge_lengths, "edge_length"), (widths, "width"),
               (hanging, None), (plate, None), (directions, "bent_direction")]
     for i, (draw, study) in enumerate(panels):

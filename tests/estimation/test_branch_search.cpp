@@ -45,7 +45,9 @@ TEST(BranchSearch, OutcomeCountsBeforeMisfit) {
 
 /// A fabric of the tag model with a much stiffer warp, and its drape by the ramp.
 struct StiffWarp {
-  StiffWarp() : potential(make_disc(kCusick, {.vertices = 500}), fabric(), {}, kCusick.gravity) {
+  StiffWarp()
+      : potential(make_disc(kCusick, {.vertices = 500, .clamp_refinement = 1}), fabric(), {},
+                  kCusick.gravity) {
     const Equilibrium drape = drape_by_ramp(potential, 1);
     seen.profile = radial_profile(trace_outline(potential.mesh(), kCusick, drape.x).points).radius;
     seen.noise = 1e-5;

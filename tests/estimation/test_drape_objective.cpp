@@ -39,7 +39,8 @@ struct Case {
       : space{{Parameter::k_h, Parameter::k_bu, Parameter::k_bh}, stiff_fabric()},
         z(space.encode(stiff_fabric())) {
     const auto small = std::make_shared<const Discretization>(
-        make_disc_mesh(kSmall, {.vertices = 250, .seed = 2}), default_factor_backend());
+        make_disc_mesh(kSmall, {.vertices = 250, .seed = 2, .clamp_refinement = 1}),
+        default_factor_backend());
     add({{disc(300), stiff_fabric(), {}, kCusick.gravity}, kCusick, folded(4, 0.12, 0.008)}, 4);
     add({{small, stiff_fabric(), {}, kSmall.gravity}, kSmall, folded(3, 0.112, 0.003)}, 3);
     pictures[0].seen.centre_known = false;

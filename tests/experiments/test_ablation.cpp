@@ -52,7 +52,7 @@ TEST(Ingredients, ChangeWhatTheySay) {
   EXPECT_NEAR(std::pow(even.k_bu, 3), 1.2e-5 * 6e-6 * 8e-6, 1e-28);  // rounding
   EXPECT_EQ(changed("mesh_double").mesh.vertices, 600);
   EXPECT_EQ(changed("clamp_factor_1").mesh.clamp_wing_factor, 1);
-  EXPECT_EQ(changed("clamp_refined").mesh.clamp_refinement, 2);
+  EXPECT_EQ(changed("clamp_even").mesh.clamp_refinement, 1);
   EXPECT_EQ(changed("no_softening").fabric.s_bh, 1);
   EXPECT_EQ(changed("other_threshold").reading.threshold, BendingThreshold::printed);
   EXPECT_EQ(changed("secant_law").reading.law, BendingLaw::secant);

@@ -164,6 +164,7 @@ const baselines::Method& method(std::string_view name) {
 
 TEST(HardCases, ALineSearchStopsAtAJumpOfTheEnergy) {
   Settings settings;
+  settings.mesh.clamp_refinement = 1;
   settings.start.phase = 0.1;
   const Problem secant = hard_case("secant", settings, 250);
   const Potential& E = secant.potential;

@@ -60,7 +60,7 @@ class Program : public ProgramInFolder {
 
   void SetUp() override {
     scratch.write("a.toml",
-                  "[experiment]\nkind = 'drape'\n[mesh]\nvertices = 250\n"
+                  "[experiment]\nkind = 'drape'\n[mesh]\nvertices = 250\nclamp_refinement = 1\n"
                   "[fabric]\nk_bu = 2e-5\nk_bv = 2e-5\nk_bh = 2e-5\n");
   }
 };

@@ -95,7 +95,8 @@ inline std::shared_ptr<const Discretization> disc(int vertices,
                                                   FactorBackend backend = default_factor_backend(),
                                                   std::uint64_t seed = 1) {
   return std::make_shared<const Discretization>(
-      make_disc_mesh(kCusick, {.vertices = vertices, .seed = seed}), backend);
+      make_disc_mesh(kCusick, {.vertices = vertices, .seed = seed, .clamp_refinement = 1}),
+      backend);
 }
 
 /// A fabric whose drape has few folds.
