@@ -2,12 +2,14 @@
 
 #include <ceres/ceres.h>
 
+#include <limits>
 #include <utility>
 
 namespace drape {
 namespace {
 
 constexpr double kScalingDamping = 1e-3;  // of the largest diagonal entry of J^T J
+constexpr double kWorthwhile = 0.9;  // of the cost: less is left by a run that is worth another
 
 class ProfileResiduals : public ceres::CostFunction {
  public:
@@ -33,25 +35,30 @@ class ProfileResiduals : public ceres::CostFunction {
   FitObjective& objective_;
 };
 
-/// The cost in scaled unknowns v, u = origin + scaling v.
+/// The cost in scaled unknowns v, u = origin + scaling v. Remembers the best state: where a line
+/// search fails Ceres gives back the first one.
 class AdjointCost : public ceres::FirstOrderFunction {
  public:
   AdjointCost(FitObjective& objective, VecX origin, MatX scaling, const MinimiseOptions& options)
       : objective_(objective),
         origin_(std::move(origin)),
         scaling_(std::move(scaling)),
-        options_(options) {}
+        options_(options),
+        best_(origin_) {}
   int NumParameters() const override { return objective_.unknowns(); }
-  VecX unknowns_at(const double* v) const {
-    return origin_ + scaling_ * Eigen::Map<const VecX>(v, objective_.unknowns());
-  }
+  const VecX& best() const { return best_; }
+  double best_cost() const { return best_cost_; }
   bool Evaluate(const double* v, double* cost, double* gradient) const override {
-    const VecX u = unknowns_at(v);
+    const VecX u = origin_ + scaling_ * Eigen::Map<const VecX>(v, objective_.unknowns());
     if ((u.array() < options_.lower.array()).any() || (u.array() > options_.upper.array()).any())
       return false;
     VecX g;
     if (!objective_.cost_at(u, *cost, gradient != nullptr ? &g : nullptr)) return false;
     if (gradient != nullptr) Eigen::Map<VecX>(gradient, g.size()) = scaling_.transpose() * g;
+    if (*cost < best_cost_) {
+      best_cost_ = *cost;
+      best_ = u;
+    }
     return true;
   }
 
@@ -60,6 +67,8 @@ class AdjointCost : public ceres::FirstOrderFunction {
   VecX origin_;
   MatX scaling_;
   const MinimiseOptions& options_;
+  mutable VecX best_;
+  mutable double best_cost_ = std::numeric_limits<double>::infinity();
 };
 
 /// L^-T of the damped Gauss-Newton matrix J^T J = L L^T at the start, where the sensitivities are
@@ -94,10 +103,10 @@ class StopEarly : public ceres::IterationCallback {
 
 /// What both of Ceres' solvers report.
 template <typename Summary>
-void keep(const Summary& summary, const FitObjective& objective, const MinimiseOptions& options,
-          Minimum& minimum) {
+void keep(const Summary& summary, double cost, const FitObjective& objective,
+          const MinimiseOptions& options, Minimum& minimum) {
   minimum.initial_cost = summary.initial_cost;
-  minimum.cost = summary.final_cost;
+  minimum.cost = cost;
   minimum.iterations = static_cast<int>(summary.iterations.size());
   const bool sufficient = minimum.cost <= options.sufficient_cost;
   const bool at_edge = objective.at_edge() && !sufficient;
@@ -130,13 +139,12 @@ Minimum levenberg_marquardt(FitObjective& objective, const VecX& u,
   ceres_options.num_threads = 1;
   ceres::Solver::Summary summary;
   ceres::Solve(ceres_options, &problem, &summary);
-  keep(summary, objective, options, minimum);
+  keep(summary, summary.final_cost, objective, options, minimum);
   return minimum;
 }
 
-Minimum bfgs(FitObjective& objective, const VecX& u, const MinimiseOptions& options) {
-  Minimum minimum;
-  minimum.u = u;
+/// One run of Ceres from u.
+Minimum bfgs_from(FitObjective& objective, const VecX& u, const MinimiseOptions& options) {
   auto* const cost =  // owned by the problem
       new AdjointCost(objective, u, gauss_newton_scaling(objective, u), options);
   const ceres::GradientProblem problem(cost);
@@ -152,8 +160,28 @@ Minimum bfgs(FitObjective& objective, const VecX& u, const MinimiseOptions& opti
   ceres_options.logging_type = ceres::SILENT;
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(ceres_options, problem, v.data(), &summary);
-  minimum.u = cost->unknowns_at(v.data());
-  keep(summary, objective, options, minimum);
+  Minimum minimum;
+  minimum.u = cost->best();
+  keep(summary, cost->best_cost(), objective, options, minimum);
+  return minimum;
+}
+
+/// A line search fails where what BFGS has learned on the way is no model of where it is, or where
+/// the drapes that it asks for are on no branch; it then begins anew at the best state, in the
+/// units of that state, as long as this helps.
+Minimum bfgs(FitObjective& objective, const VecX& u, const MinimiseOptions& options) {
+  Minimum minimum = bfgs_from(objective, u, options);
+  for (bool worthwhile = true; worthwhile && !minimum.converged && !objective.at_edge() &&
+                               minimum.iterations < options.max_iterations;) {
+    MinimiseOptions rest = options;
+    rest.max_iterations -= minimum.iterations;
+    Minimum next = bfgs_from(objective, minimum.u, rest);
+    if (!(next.cost <= minimum.cost)) break;
+    worthwhile = next.cost < kWorthwhile * minimum.cost;
+    next.initial_cost = minimum.initial_cost;
+    next.iterations += minimum.iterations;
+    minimum = std::move(next);
+  }
   return minimum;
 }
 
