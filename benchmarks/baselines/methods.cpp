@@ -7,7 +7,8 @@ namespace drape::baselines {
 const std::vector<Method>& methods() {
   static const std::vector<Method> list{
       {"core", "this solver", false, core_solver,
-       "Every step leads down and the end is certified by a Cholesky factor of the full Hessian. It "
+       "Every step leads down and the end is certified by a Cholesky factor of the full Hessian. "
+       "It "
        "can run out of time or reach the rounding floor of the residual, and says which "
        "(core/equilibrium.h)."},
       {"projected_newton", "Newton, projected Hessian", false, projected_newton,
@@ -50,8 +51,8 @@ const std::vector<Method>& methods() {
       {"admm", "ADMM", false, admm,
        "The energies are not convex, and nothing ensures convergence (Overby et al. 2017). Where "
        "compression exceeds a direction's weight over its stiffness, the multiplier turns the "
-       "direction over and the iterates cycle; heavier weights end that but are slower, and on "
-       "stiff membranes it is slow with these."},
+       "direction over and the iterates cycle, as on the way from a folded start; heavier weights "
+       "end that but are slower. Stiff membranes are slow with any weight."},
       {"xpbd", "XPBD", true, xpbd,
        "One sweep a step leaves part of every constraint to the next step (Macklin et al. 2019): "
        "the cloth comes to rest without equilibrium of forces. What is left falls with h and grows "

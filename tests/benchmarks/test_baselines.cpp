@@ -123,7 +123,7 @@ TEST(Admm, AnEquilibriumIsItsFixedPoint) {
   }
 }
 
-TEST(Admm, CyclesWhereCompressionExceedsAWeight) {
+TEST(Admm, SettlesNearAnEquilibriumUnlessTheMembraneFailsUnderItsWeight) {
   const auto residual = [](double k) {  // after a disturbance of the equilibrium
     Fabric fabric = test::medium_fabric();
     fabric.k_u = fabric.k_v = k;
@@ -131,19 +131,13 @@ TEST(Admm, CyclesWhereCompressionExceedsAWeight) {
     const Potential E = potential(fabric);
     const Equilibrium rest = drape_by_lobes(E, kCusick, 6, 0.1, {.tolerance = 1e-9});
     EXPECT_TRUE(rest.converged());
-    double compression = 0;
-    for (const Direction& e : constraints_of(E).directions)
-      compression = std::max(compression, 1 - e.stretched(rest.x).norm());
     const VecX x = test::shaken(mesh()->mesh(), rest.x, 1e-5);
-    const MethodRun r = run(method("admm"), E, x, {.max_iterations = 500, .tolerance = 1e-12});
-    return std::pair(compression, r.end().residual);
+    return run(method("admm"), E, x, {.max_iterations = 500, .tolerance = 1e-12}).end().residual;
   };
-  const auto [soft, cycling] = residual(30);
-  const auto [stiff, settling] = residual(3000);
-  EXPECT_GT(soft, 0.05);  // the weight over the stiffness
-  EXPECT_LT(stiff, 0.05);
-  EXPECT_GT(cycling, 0.5);
-  EXPECT_LT(settling, 0.1);
+  EXPECT_LT(residual(30), 2e-3);
+  EXPECT_LT(residual(300), 5e-3);
+  EXPECT_LT(residual(3000), 2e-2);
+  EXPECT_GT(residual(3), 0.1);  // compressed by half
 }
 
 TEST(ProjectedNewton, ConvergesAtTheRateOfTheProjection) {
