@@ -170,7 +170,7 @@ class Estimation {
       if (std::any_of(known.begin(), known.end(),
                       [&](const FitState& state) { return fit_.is_at(state); }))
         continue;
-      known.push_back(fit_.state());
+      known.push_back(fit_.state().without_factors());
       if (fit_.largest_miss() > kWorthFitting * best.miss) continue;
       fit_.minimise(kStageTolerance, kNeighbourIterations);
       const double miss = fit_.largest_miss();

@@ -44,7 +44,7 @@ class PopSearch {
 
   bool run() {
     const double first = fit_.largest_miss();
-    best_ = {first, true, fit_.state()};
+    best_ = {first, true, fit_.state().without_factors()};
     open_.push_back(best_);
     while (!open_.empty() && left_ > 0 && !explains_well(best_.miss) && !fit_.spent()) {
       const auto least = std::ranges::min_element(open_, {}, &Popped::miss);
@@ -65,7 +65,7 @@ class PopSearch {
     if (!fit_.set_guides(0)) return;
     fit_.minimise(kFitTolerance, kFitIterations);
     if (!fit_.same_nodes()) return;
-    next = {fit_.largest_miss(), true, fit_.state()};
+    next = {fit_.largest_miss(), true, fit_.state().without_factors()};
     if (std::ranges::any_of(seen_, [&](const FitState& state) { return fit_.is_near(state); }))
       return;
     seen_.push_back(next.state);
@@ -78,15 +78,16 @@ class PopSearch {
     VecX r;
     MatX jacobian;
     if (!fit_.set_guides(0) || !fit_.residuals(r, &jacobian)) return;
+    const FitState whole = fit_.state();  // with factors, to solve from
     const ReachableResidual left(jacobian, from.miss, kReach);
     const double size = r.norm() / from.miss;
     std::vector<Popped> popped;
     int tried = 0;
     for (const PicturePop& pop : fit_.promising_pops()) {
       if (left_-- <= 0) break;
-      fit_.take_up(from.state);
-      if (fit_.pop(pop) && !fit_.is_at(from.state) && fit_.same_nodes() && fit_.residuals(r))
-        popped.push_back({left.norm(r) / size, false, fit_.state()});
+      fit_.take_up(whole);
+      if (fit_.pop(pop) && !fit_.is_at(whole) && fit_.same_nodes() && fit_.residuals(r))
+        popped.push_back({left.norm(r) / size, false, fit_.state().without_factors()});
       if (++tried % kBatch == 0 && std::ranges::any_of(popped, [&](const Popped& one) {
             return one.miss < kMuch * from.miss;
           }))

@@ -35,6 +35,15 @@ double radical_inverse(int index, int base) {
 
 }  // namespace
 
+FitState FitState::without_factors() const {
+  FitState state = *this;
+  for (PictureEstimate& picture : state.pictures) {
+    picture.equilibrium.factor.reset();
+    picture.equilibrium.preconditioner.reset();
+  }
+  return state;
+}
+
 StagedFit::StagedFit(const std::vector<Picture>& pictures, const Fabric& start,
                      const EstimateOptions& options)
     : options_(options),

@@ -21,6 +21,9 @@ struct FitState {
   std::vector<PictureEstimate> pictures;
   double cost = std::numeric_limits<double>::infinity();  ///< of a free fit
   std::string message;
+
+  /// To be recognised by or gone back to: the factors of its drapes hold most of its memory.
+  FitState without_factors() const;
 };
 
 /// A drape without a guide, of the fabric at hand.
