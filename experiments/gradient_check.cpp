@@ -154,21 +154,33 @@ class Differences {
   BranchPoint centre_;
 };
 
+/// What central differences f and f_before of two steps tend to: their errors are as h^2.
+double extrapolate(double step_before, double f_before, double step, double f) {
+  const double ratio = step_before / step;
+  return ratio == 1 ? f : f + (f - f_before) / (ratio * ratio - 1);
+}
+
 ParameterCheck check_parameter(Differences& differences, const std::vector<double>& steps,
                                Parameter parameter, int index, double adjoint) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   ParameterCheck check;
   check.parameter = parameter;
   check.adjoint = adjoint;
-  check.difference = std::numeric_limits<double>::quiet_NaN();
-  for (double step : steps) {
-    const double f = differences.central(index, step);
+  check.difference = kNone;
+  const auto take_if_nearest = [&](double f, double step) {
+    if (std::isnan(f) || std::abs(f - adjoint) >= std::abs(check.difference - adjoint)) return;
+    check.difference = f;
+    check.step = step;
+  };
+  for (size_t i = 0; i < steps.size(); ++i) {
+    const double f = differences.central(index, steps[i]);
+    const double limit =
+        i > 0 ? extrapolate(steps[i - 1], check.differences.back(), steps[i], f) : kNone;
     check.differences.push_back(f);
-    if (std::isnan(f)) {
-      ++check.excluded;
-    } else if (!(std::abs(f - adjoint) >= std::abs(check.difference - adjoint))) {
-      check.difference = f;
-      check.step = step;
-    }
+    check.extrapolated.push_back(limit);
+    if (std::isnan(f)) ++check.excluded;
+    take_if_nearest(f, steps[i]);
+    take_if_nearest(limit, steps[i]);
   }
   return check;
 }

@@ -5,8 +5,9 @@
 // its states start from the prediction x +- dx/dp h and are solved to the rounding floor. A step is
 // excluded when a wing changes its bending regime between the three states, or when a state lies
 // far from its prediction (it snapped to another branch): there the loss has no derivative to
-// compare with. The best of the other steps counts: large steps err by truncation, small ones by
-// rounding.
+// compare with. Large steps err by truncation, small ones by rounding; two steps together give a
+// difference without the truncation of second order (Richardson 1911), which helps where a
+// derivative is small against its own higher ones. The best of all these counts.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +25,12 @@ struct ParameterCheck {
   Parameter parameter;
   double adjoint = 0;               ///< dL/dp by the adjoint
   std::vector<double> differences;  ///< central difference of each step; NaN if excluded
-  double difference = 0;            ///< the one nearest to the adjoint; NaN if all were excluded
-  double step = 0;                  ///< its step
-  double error = 0;                 ///< |a - f| / max(|f|, 1e-4 max_j |f_j|); NaN likewise
-  int excluded = 0;                 ///< steps with a regime switch or a snap inside
+  /// Of each step and the one before it, extrapolated; the first one NaN, as those excluded.
+  std::vector<double> extrapolated;
+  double difference = 0;  ///< the nearest to the adjoint; NaN if all were excluded
+  double step = 0;        ///< its step, the smaller one of two
+  double error = 0;       ///< |a - f| / max(|f|, 1e-4 max_j |f_j|); NaN likewise
+  int excluded = 0;       ///< steps with a regime switch or a snap inside
 };
 
 struct GradientCheck {

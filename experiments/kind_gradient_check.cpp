@@ -45,9 +45,13 @@ void add_check(const GradientCheck& result, Json& item) {
   item["wings"] = result.wings;
   item["wings_past_threshold"] = result.wings_past_threshold;
   for (const ParameterCheck& c : result.parameters)
-    item["parameters"][std::string(name(c.parameter))] = {
-        {"adjoint", c.adjoint}, {"difference", c.difference}, {"differences", c.differences},
-        {"step", c.step},       {"error", c.error},           {"excluded", c.excluded}};
+    item["parameters"][std::string(name(c.parameter))] = {{"adjoint", c.adjoint},
+                                                          {"difference", c.difference},
+                                                          {"differences", c.differences},
+                                                          {"extrapolated", c.extrapolated},
+                                                          {"step", c.step},
+                                                          {"error", c.error},
+                                                          {"excluded", c.excluded}};
 }
 
 /// Checks the `index`-th fabric; `record` becomes its record, whatever happens.

@@ -184,7 +184,7 @@ struct GradientCheckSettings {
   int fabrics = 20;
   CheckedLoss loss = CheckedLoss::profile;
   std::vector<Parameter> parameters{all_parameters().begin(), all_parameters().end()};
-  std::vector<double> steps{1e-3, 1e-4, 1e-5, 3e-6, 1e-6};
+  std::vector<double> steps{3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6};
 };
 
 struct RobustnessSettings {
