@@ -39,7 +39,7 @@ def sensitivity(figure, left, top, parameter, items, designs, first):
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     if first:
-        axes.legend(frameon=False, fontsize=6)
+        axes.legend(edgecolor="none", framealpha=0.8, fontsize=6)
 
 
 def directions(figure, left, top, title, items, parameters, design):

@@ -102,8 +102,9 @@ def edge_lengths(axes, rows):
                   color=style.FAINT, markersize=2.5)
     x, y = 1e3 * column(rows, "value"), 100 * np.abs(column(rows, "mean_error"))
     axes.plot(x, y, "o-", color=style.ESTIMATE, markersize=3, linewidth=0.8)
-    axes.plot(x, y.max() * x / x.max(), color=style.TARGET, linewidth=0.6, dashes=(3, 2))
-    axes.text(x.max(), 0.35 * y.max(), "dashed: order 1", ha="right", va="top", fontsize=6)
+    axes.plot(x, y.max() * x / x.max(), color=style.TARGET, linewidth=0.6, dashes=(3, 2),
+              label="order 1")
+    axes.legend(frameon=False, fontsize=6, loc="upper left")
     axes.set(xscale="log", yscale="log", xlabel="edge length, mm",
              title="Cantilever: error of the drop, %")
     axes.set_xticks(x, [f"{value:g}" for value in x])
@@ -190,7 +191,7 @@ def bias_table(figure, top, bias):
         counts = sorted(int(count) for count in row["nodes"])
         often = max(row["nodes"], key=row["nodes"].get, default="–")
         nodes = often if len(counts) < 2 else f"{often} ({counts[0]}–{counts[-1]})"
-        figure.text(left, line, group, fontsize=6)
+        figure.text(left, line, group.replace("anisotropic", "aniso.").replace("_", " "), fontsize=6)
         figure.text(left + 42, line, f"{_value(row['mean'], 1)} ± {_spread(row['sd'])} "
                     f"({_spread(row['sd_over_rotations'])})", fontsize=6)
         figure.text(left + 64.2, line, f"{_value(row['coherence_with_fabric'], 2)} | "

@@ -43,7 +43,7 @@ def validation_summary():
         "mean": 57.123, "sd": 10.66, "sd_over_rotations": 10.67, "coherence_with_fabric": None,
         "coherence_with_mesh": 0.03, "nodes": {"10": 3, "6": 4, "7": 1}}
         for softness in ("stiff", "medium", "soft") for vertices in (1000, 2000)
-        for start in ("lobes", "ramp")}
+        for start in ("lobes", "coarse_ramp")}
     return {"solves": 90, "converged": 89, "cantilever_order": 1.04, "plate_order": 2.1,
             "studies": studies, "mesh_bias": bias}
 
@@ -208,7 +208,7 @@ class Studies(FigureTest):
         page = validation.page(summary)
         self.check_layout(page)
         words = self.words(page)
-        for said in ("89 of 90", "cantilever 1.0", "soft anisotropic, 2000, ramp", "6 (6–10)"):
+        for said in ("89 of 90", "cantilever 1.0", "soft aniso., 2000, coarse ramp", "6 (6–10)"):
             self.assertIn(said, words)
         self.check_layout(validation.page(summary | {"mesh_bias": {}, "cantilever_order": None}))
         self.check_layout(accuracy.page(accuracy_summary()))
