@@ -2,15 +2,15 @@
 // picture of the same fabric.
 //
 // Of every fabric a few captures are fitted one by one. From the first fit the others are
-// predicted: with the branch taken from the picture, as a fit is (this flatters), and without it,
-// by a few protocols whose drape coefficients and nodes are held against all photographs of the
-// fabric.
+// predicted: with the branch taken from the picture, as a fit is (this flatters), and without it
+// (branch_free_prediction.h).
 #include <cmath>
 #include <functional>
 #include <iostream>
 #include <map>
 
 #include "core/durable_file.h"
+#include "experiments/branch_free_prediction.h"
 #include "experiments/config_names.h"
 #include "experiments/figure.h"
 #include "experiments/interrupt.h"
@@ -71,13 +71,6 @@ bool has_nodes_within_one(const Json& item) {
 double error_of_drape_coefficient(const Json& item) {
   return number(item["drape_coefficient_percent"]) -
          number(item["seen"]["drape_coefficient_percent"]);
-}
-
-double standard_deviation(const std::vector<double>& values) {
-  if (values.size() < 2) return NAN;
-  double sum = 0;
-  for (const double value : values) sum += std::pow(value - mean(values), 2);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
 /// How well a set of fits or predictions succeeded.
@@ -149,22 +142,6 @@ std::vector<double> numbers(const Json& list) {
   return values;
 }
 
-/// Drapes by protocols against all photographs of the fabric.
-Json hold_against(const Json& drapes, const Json& seen) {
-  std::vector<double> coefficients, nodes;
-  for (const Json& drape : drapes["drapes"]) {
-    if (!drape.contains("node_count")) continue;
-    coefficients.push_back(number(drape["drape_coefficient_percent"]));
-    nodes.push_back(number(drape["node_count"]));
-  }
-  const std::vector<double> real = numbers(seen["drape_coefficients"]);
-  return {{"drape_coefficients", coefficients},
-          {"node_counts", nodes},
-          {"drape_coefficient_error", median(coefficients) - median(real)},
-          {"drape_coefficient_sd_of_photographs", standard_deviation(real)},
-          {"node_error", median(nodes) - median(numbers(seen["node_counts"]))}};
-}
-
 void print_row(const std::string& label, const Json& row) {
   std::printf("%-34s %8d %6d %10d %9.2f %7.3f %9.2f %8.1f\n", label.c_str(),
               row["pictures"].get<int>(), row["free_and_certified"].get<int>(),
@@ -173,12 +150,25 @@ void print_row(const std::string& label, const Json& row) {
               number(row["cpu_seconds_median"]));
 }
 
+void print_without_branch(const Json& summary) {
+  const auto print = [](const std::string& label, const Json& row) {
+    std::printf("branch not given, %-17s %8d %27.1f nodes %18.2f\n", label.c_str(),
+                row["fabrics"].get<int>(), number(row["node_bias_median"]),
+                number(row["drape_coefficient_error_median"]));
+  };
+  for (const auto& [protocol, row] : summary["by_protocol"].items()) print(protocol, row);
+  print("best on others", summary);
+  std::printf("photographs of one fabric scatter by %.2f points (median sd)\n",
+              number(summary["drape_coefficient_sd_of_photographs_median"]));
+}
+
 /// The fabrics' fits and predictions, gathered for summary and figure.
 Json summarise(const Settings& settings, const std::vector<FabricCaptures>& fabrics,
                const JsonStore& fits, const JsonStore& predictions, const JsonStore& protocols) {
   Json summary;
   std::map<std::string, std::vector<Json>> groups, changes;
-  std::vector<double> branch_free_error, own_scatter;
+  std::vector<DrapedByProtocols> draped;
+  std::vector<size_t> draped_rows;
   for (const FabricCaptures& f : fabrics) {
     Json row = {{"fabric", f.fabric},
                 {"areal_density", areal_density_of(settings, f.fabric)},
@@ -209,12 +199,11 @@ Json summarise(const Settings& settings, const std::vector<FabricCaptures>& fabr
       changes["branch given, other " + change].push_back(predicted);
       row["predictions"].push_back(predicted);
     }
-    const std::string protocol_item = f.chosen.front().name();
-    if (protocols.has(protocol_item)) {
-      row["without_branch"] = hold_against(protocols.load(protocol_item), row["photographs"]);
-      branch_free_error.push_back(
-          std::abs(number(row["without_branch"]["drape_coefficient_error"])));
-      own_scatter.push_back(number(row["without_branch"]["drape_coefficient_sd_of_photographs"]));
+    if (const std::string item = f.chosen.front().name(); protocols.has(item)) {
+      draped.push_back({protocols.load(item)["drapes"],
+                        numbers(row["photographs"]["drape_coefficients"]),
+                        numbers(row["photographs"]["node_counts"])});
+      draped_rows.push_back(summary["fabrics"].size());
     }
     summary["fabrics"].push_back(row);
   }
@@ -224,13 +213,12 @@ Json summarise(const Settings& settings, const std::vector<FabricCaptures>& fabr
     print_row(label, summary["fits"][label] = account(items));
   for (const auto& [label, items] : changes)
     print_row(label, summary["predictions"][label] = account(items));
-  summary["without_branch"] = {{"fabrics", branch_free_error.size()},
-                               {"drape_coefficient_error_median", median(branch_free_error)},
-                               {"drape_coefficient_sd_of_photographs_median", median(own_scatter)}};
-  std::printf(
-      "branch not given, %zu fabrics: median error of the drape coefficient %.2f points; "
-      "photographs of one fabric scatter by %.2f\n",
-      branch_free_error.size(), median(branch_free_error), median(own_scatter));
+  const BranchFreePredictions free = predict_without_branch(draped);
+  for (size_t i = 0; i < draped.size(); ++i)
+    if (!free.fabrics[i].is_null())
+      summary["fabrics"][draped_rows[i]]["without_branch"] = free.fabrics[i];
+  summary["without_branch"] = free.summary;
+  print_without_branch(free.summary);
   return summary;
 }
 

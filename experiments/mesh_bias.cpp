@@ -60,13 +60,6 @@ Json drape_one(Settings settings, std::shared_ptr<const Discretization> discreti
   return item;
 }
 
-double standard_deviation(const std::vector<double>& values) {
-  if (values.size() < 2) return NAN;
-  double sum = 0;
-  for (const double value : values) sum += std::pow(value - mean(values), 2);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
-
 /// |mean of exp(i n (direction - turn))| over drapes with the most frequent number n of nodes; NaN
 /// for fewer than three.
 double coherence(const std::vector<Json>& drapes, bool with_mesh) {

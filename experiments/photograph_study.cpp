@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "estimation/tag.h"
+#include "experiments/config_names.h"
 #include "experiments/json_store.h"
 #include "experiments/model.h"
 #include "experiments/photograph_fit.h"
@@ -240,10 +241,10 @@ Json drape_by_protocols(const Settings& settings,
   const Fabric fabric = fitted_fabric(fit);
   Json drapes = Json::array();
   Settings how = settings;
-  for (const std::uint64_t seed : {1, 2, 3}) {
-    how.start.protocol = StartProtocol::coarse_ramp;
-    how.start.seed = seed;
-    drapes.push_back(drape_once(how, discretization, fabric, "coarse_ramp"));
+  for (const StartProtocol protocol :
+       {StartProtocol::coarse_ramp, StartProtocol::ramp, StartProtocol::lowering}) {
+    how.start.protocol = protocol;
+    drapes.push_back(drape_once(how, discretization, fabric, to_name(protocol)));
   }
   for (const int lobes : settings.photographs.lobes) {
     how.start.protocol = StartProtocol::lobes;

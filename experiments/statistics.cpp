@@ -12,6 +12,14 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
+double standard_deviation(const std::vector<double>& values) {
+  if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  const double m = mean(values);
+  double sum = 0;
+  for (const double value : values) sum += std::pow(value - m, 2);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
 double percentile(std::vector<double> values, double percent) {
   std::erase_if(values, [](double v) { return std::isnan(v); });
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();

@@ -1,4 +1,4 @@
-// Mean and percentiles of a few values.
+// Mean, spread and percentiles of a few values.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,6 +9,9 @@ namespace drape {
 
 /// NaN of nothing.
 double mean(const std::vector<double>& values);
+
+/// Of a sample; NaN for fewer than two values.
+double standard_deviation(const std::vector<double>& values);
 
 /// Linear between ranks, percent in [0, 100]; NaN values are left out, NaN if none is left.
 double percentile(std::vector<double> values, double percent);

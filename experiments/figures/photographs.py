@@ -65,13 +65,12 @@ def scatter(axes, fabrics, model):
                                    for item in row.get("predictions") or [] if is_free(item)]
         if "without_branch" in row:
             seen = row["photographs"]["drape_coefficients"]
-            predicted = row["without_branch"]["drape_coefficients"]
-            if predicted:
-                points["branch not given"].append((np.median(seen), np.median(predicted)))
-                axes.plot([np.median(seen)] * 2, [min(predicted), max(predicted)],
-                          color=style.START, linewidth=0.4)
-                axes.plot([min(seen), max(seen)], [np.median(predicted)] * 2, color=style.START,
-                          linewidth=0.4)
+            predicted = row["without_branch"]["drape_coefficient_percent"]
+            by_all = row["without_branch"]["drape_coefficients"]
+            points["branch not given"].append((np.median(seen), predicted))
+            axes.plot([np.median(seen)] * 2, [min(by_all), max(by_all)], color=style.START,
+                      linewidth=0.4)
+            axes.plot([min(seen), max(seen)], [predicted] * 2, color=style.START, linewidth=0.4)
     for label, (colour, marker) in marks.items():
         x, y = np.array(points[label]).reshape(-1, 2).T
         axes.plot(x, y, marker, color=colour, markersize=2.5, linewidth=0, label=label)
@@ -83,18 +82,18 @@ def scatter(axes, fabrics, model):
 def nodes(axes, fabrics):
     """Nodes of all photographs against those of the protocols' drapes."""
     for row in fabrics:
-        if "without_branch" not in row or not row["without_branch"]["node_counts"]:
+        if "without_branch" not in row:
             continue
-        seen, predicted = (np.array(v) for v in (row["photographs"]["node_counts"],
-                                                 row["without_branch"]["node_counts"]))
-        axes.errorbar(np.median(seen), np.median(predicted),
+        seen, by_all = (np.array(v) for v in (row["photographs"]["node_counts"],
+                                              row["without_branch"]["node_counts"]))
+        predicted = row["without_branch"]["node_count"]
+        axes.errorbar(np.median(seen), predicted,
                       xerr=[[np.median(seen) - seen.min()], [seen.max() - np.median(seen)]],
-                      yerr=[[np.median(predicted) - predicted.min()],
-                            [predicted.max() - np.median(predicted)]],
+                      yerr=[[predicted - by_all.min()], [by_all.max() - predicted]],
                       fmt="s", color=style.START, markersize=2.5, elinewidth=0.4)
     axes.plot([0, 18], [0, 18], color=style.FAINT, linewidth=0.6)
     axes.set(xlim=(0, 18), ylim=(0, 18), xlabel="photographed", ylabel="branch not given")
-    axes.set_title("Nodes: medians, bars over all", fontsize=7)
+    axes.set_title("Nodes, bars: all photographs, protocols", fontsize=7)
 
 
 def rigidities(axes, fabrics, model):

@@ -181,7 +181,8 @@ def photographs_summary():
     return dict(fabrics=[
         dict(fabric=1, photographs=photographs, fits=dict(printed=[fit, lost]),
              predictions=[fit | dict(change="face")],
-             without_branch=dict(drape_coefficients=[65.0, 68.0], node_counts=[5, 6])),
+             without_branch=dict(drape_coefficients=[65.0, 68.0], node_counts=[5, 6],
+                                 drape_coefficient_percent=68.0, node_count=6)),
         dict(fabric=2, photographs=photographs, fits=dict(printed=[unread, lost]))])
 
 
