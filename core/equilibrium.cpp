@@ -31,6 +31,8 @@ constexpr int kHardSearches = 3;           // line searches with several backtra
 
 constexpr int kNoisePatience = 12;  // iterations below the noise of the energy without progress
 constexpr int kMaxStalls = 3;       // refreshes in a row that did not help
+constexpr int kMostWalls = 5;       // steps over jumps of the energy
+constexpr double kOverWall = 0.3;   // of a step
 constexpr int kMaxSaddles = 8;
 constexpr int kCurvatureIterations = 40;
 constexpr double kSaddleStep = 1e-3;  // first step off a saddle [m]
@@ -110,7 +112,7 @@ class Minimisation {
       }
       take_back_to_best();
       if (at_rounding_floor()) return true;
-      if (stalled()) {
+      if (stalled() && !pass_wall()) {
         result_.status = EquilibriumStatus::stagnated;
         return false;
       }
@@ -278,6 +280,28 @@ class Minimisation {
     return stalls_ > kMaxStalls;
   }
 
+  /// Where the energy jumps up (the literal law) a step over the wall, beyond which the way down
+  /// may go on; false, and back before the lowest wall, after several of them.
+  bool pass_wall() {
+    if (walls_ == 0 || result_.energy < wall_energy_) {
+      wall_energy_ = result_.energy;
+      wall_x_ = result_.x;
+    }
+    if (++walls_ > kMostWalls) {
+      result_.x = wall_x_;
+      evaluate();
+      return false;
+    }
+    result_.x += kOverWall * discretization_.to_full(direction());
+    evaluate();
+    if (!std::isfinite(result_.energy) || !std::isfinite(result_.residual)) {
+      walls_ = kMostWalls;
+      return pass_wall();
+    }
+    stalls_ = 0;
+    return true;
+  }
+
   /// Whether the residual is as small as rounding allows.
   bool at_rounding_floor() {
     result_.rounding_floor = potential_.rounding_floor(result_.x);
@@ -338,6 +362,9 @@ class Minimisation {
   double residual_at_stall_ = std::numeric_limits<double>::infinity();
   double energy_at_stall_ = std::numeric_limits<double>::infinity();  // [J]
   int stalls_ = 0;
+  int walls_ = 0;           // passed so far
+  VecX wall_x_;             // the lowest of them
+  double wall_energy_ = 0;  // [J]
   double best_residual_ = std::numeric_limits<double>::infinity();
   int noisy_steps_ = 0;  // since the residual last fell, while the energy says nothing
 };

@@ -6,7 +6,8 @@
 // as small as the factorisation allows, so that the end is Newton's own. A state counts as
 // converged when its residual is at most the tolerance (or the rounding floor, whichever is larger)
 // and the true Hessian has a Cholesky factor: the certificate that it is a minimum. At a saddle the
-// solver leaves along a direction of negative curvature.
+// solver leaves along a direction of negative curvature; where nothing leads down and there is no
+// equilibrium either, as before a jump of the energy, it takes a few steps uphill.
 #pragma once
 
 #include <algorithm>

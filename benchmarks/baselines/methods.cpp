@@ -7,10 +7,9 @@ namespace drape::baselines {
 const std::vector<Method>& methods() {
   static const std::vector<Method> list{
       {"core", "this solver", false, core_solver,
-       "Every step leads down and the end is certified by a Cholesky factor of the full Hessian. "
-       "It "
-       "can run out of time or reach the rounding floor of the residual, and says which "
-       "(core/equilibrium.h)."},
+       "Every step leads down, but for a few over jumps of the energy, and the end is certified by "
+       "a Cholesky factor of the full Hessian. It can run out of time or reach the rounding floor "
+       "of the residual, and says which (core/equilibrium.h)."},
       {"projected_newton", "Newton, projected Hessian", false, projected_newton,
        "A drape at rest keeps compressed elements, so the projection never switches off: near "
        "the end a step shrinks the residual by 1 - λ_min(H(1)⁻¹ H), linearly where Newton's "
