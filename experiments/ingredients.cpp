@@ -33,7 +33,7 @@ const std::vector<Ingredient>& ingredients() {
   static const std::vector<Ingredient> list{
       {"clamp_factor_1", "clamp wings weigh 1", AblationWay::warm,
        [](Settings& s) { s.mesh.clamp_wing_factor = 1; }},
-      {"clamp_even", "edges at the clamp as long as elsewhere", AblationWay::warm,
+      {"clamp_even", "edges of one length", AblationWay::warm,
        [](Settings& s) { s.mesh.clamp_refinement = 1; }},
       {"mesh_half", "half the vertices", AblationWay::warm,
        [](Settings& s) { s.mesh.vertices = std::max(200, *s.mesh.vertices / 2); }},

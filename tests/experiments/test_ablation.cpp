@@ -60,6 +60,12 @@ TEST(Ingredients, ChangeWhatTheySay) {
   EXPECT_EQ(changed("shear_soft").fabric.k_h, small_settings().fabric.k_h / 5);
 }
 
+TEST(Ingredients, LabelsFitTheirColumnOfTheFigures) {
+  const std::string longest = "threshold read otherwise";  // what the figures are tested with
+  for (const Ingredient& ingredient : ingredients())
+    EXPECT_LE(ingredient.label.size(), longest.size()) << ingredient.label;
+}
+
 TEST(Ablation, TheClampFactorIsFollowedThereAndBack) {
   const Settings settings = changed("clamp_factor_1");
   const Json item =
