@@ -76,7 +76,7 @@ def scatter(axes, fabrics, model):
         axes.plot(x, y, marker, color=colour, markersize=2.5, linewidth=0, label=label)
     axes.set(xlim=(0, 100), ylim=(0, 100), xlabel="photographed", ylabel="computed")
     axes.set_title("Drape coefficient, %", fontsize=7)
-    axes.legend(frameon=False, fontsize=6, loc="upper left")
+    axes.legend(frameon=False, fontsize=6, loc="lower right")
 
 
 def nodes(axes, fabrics):
