@@ -87,6 +87,11 @@ void check_fit(const Settings& settings, const Refuse& refuse) {
       settings.photograph.camera_height_mm > 0)
     refuse("photograph.camera_height_mm",
            "an ablation holds drapes against photographs.folder in orthographic views only");
+  try {
+    factor_backend_from_name(name(settings.solver.factorization));  // not every build has CHOLMOD
+  } catch (const std::invalid_argument& error) {
+    refuse("solver.factorization", error.what());
+  }
   if (settings.dataset.shard > settings.dataset.shards)
     refuse("dataset.shard", "dataset.shard must be 1 to dataset.shards");
   if (!settings.dataset.table.empty() && !settings.dataset.parameters.empty())

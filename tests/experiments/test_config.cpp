@@ -389,5 +389,18 @@ TEST(Spelling, NearestIsNearEnough) {
   EXPECT_EQ(nearest("", known), std::nullopt);
 }
 
+TEST(Config, NamesOnlyFactorizationsThatWereBuiltIn) {
+  const auto read = [](const std::string& backend) {
+    return read_settings(std::nullopt, {assignment_from_set("experiment.kind=drape"),
+                                        assignment_from_set("solver.factorization=" + backend)});
+  };
+  EXPECT_EQ(read("eigen").solver.factorization, FactorBackend::eigen);
+#ifdef DRAPE_WITH_CHOLMOD
+  EXPECT_EQ(read("cholmod").solver.factorization, FactorBackend::cholmod);
+#else
+  EXPECT_THROW(read("cholmod"), ConfigError);
+#endif
+}
+
 }  // namespace
 }  // namespace drape
