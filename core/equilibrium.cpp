@@ -283,23 +283,19 @@ class Minimisation {
   /// Where the energy jumps up (the literal law) a step over the wall, beyond which the way down
   /// may go on; false, and back before the lowest wall, after several of them.
   bool pass_wall() {
-    if (walls_ == 0 || result_.energy < wall_energy_) {
+    if (result_.energy < wall_energy_) {
       wall_energy_ = result_.energy;
       wall_x_ = result_.x;
     }
-    if (++walls_ > kMostWalls) {
-      result_.x = wall_x_;
+    if (walls_++ < kMostWalls) {
+      result_.x += kOverWall * discretization_.to_full(direction());
       evaluate();
-      return false;
+      stalls_ = 0;
+      if (std::isfinite(result_.energy) && std::isfinite(result_.residual)) return true;
     }
-    result_.x += kOverWall * discretization_.to_full(direction());
+    result_.x = wall_x_;
     evaluate();
-    if (!std::isfinite(result_.energy) || !std::isfinite(result_.residual)) {
-      walls_ = kMostWalls;
-      return pass_wall();
-    }
-    stalls_ = 0;
-    return true;
+    return false;
   }
 
   /// Whether the residual is as small as rounding allows.
@@ -362,9 +358,9 @@ class Minimisation {
   double residual_at_stall_ = std::numeric_limits<double>::infinity();
   double energy_at_stall_ = std::numeric_limits<double>::infinity();  // [J]
   int stalls_ = 0;
-  int walls_ = 0;           // passed so far
-  VecX wall_x_;             // the lowest of them
-  double wall_energy_ = 0;  // [J]
+  int walls_ = 0;                                                 // passed so far
+  VecX wall_x_;                                                   // the lowest of them
+  double wall_energy_ = std::numeric_limits<double>::infinity();  // [J]
   double best_residual_ = std::numeric_limits<double>::infinity();
   int noisy_steps_ = 0;  // since the residual last fell, while the energy says nothing
 };

@@ -55,10 +55,20 @@ void check_densities(const Settings& settings, const Refuse& refuse) {
   check("quickstart.areal_density", settings.quickstart.areal_density);
 }
 
+/// Not every build has CHOLMOD.
+void check_factorization(const Settings& settings, const Refuse& refuse) {
+  try {
+    factor_backend_from_name(name(settings.solver.factorization));
+  } catch (const std::invalid_argument& error) {
+    refuse("solver.factorization", error.what());
+  }
+}
+
 }  // namespace
 
 void check_fit(const Settings& settings, const Refuse& refuse) {
   const Kind kind = settings.experiment.kind;
+  check_factorization(settings, refuse);
   check_densities(settings, refuse);
   if (kind == Kind::photograph) {
     if (settings.photograph.files.empty())
@@ -87,11 +97,6 @@ void check_fit(const Settings& settings, const Refuse& refuse) {
       settings.photograph.camera_height_mm > 0)
     refuse("photograph.camera_height_mm",
            "an ablation holds drapes against photographs.folder in orthographic views only");
-  try {
-    factor_backend_from_name(name(settings.solver.factorization));  // not every build has CHOLMOD
-  } catch (const std::invalid_argument& error) {
-    refuse("solver.factorization", error.what());
-  }
   if (settings.dataset.shard > settings.dataset.shards)
     refuse("dataset.shard", "dataset.shard must be 1 to dataset.shards");
   if (!settings.dataset.table.empty() && !settings.dataset.parameters.empty())

@@ -14,6 +14,7 @@
 #include "core/random.h"
 #include "estimation/continuation.h"
 #include "estimation/parameter_space.h"
+#include "experiments/extrapolation.h"
 #include "experiments/factorization_unit.h"
 #include "experiments/model.h"
 
@@ -154,12 +155,6 @@ class Differences {
   BranchPoint centre_;
 };
 
-/// What central differences f and f_before of two steps tend to: their errors are as h^2.
-double extrapolate(double step_before, double f_before, double step, double f) {
-  const double ratio = step_before / step;
-  return ratio == 1 ? f : f + (f - f_before) / (ratio * ratio - 1);
-}
-
 ParameterCheck check_parameter(Differences& differences, const std::vector<double>& steps,
                                Parameter parameter, int index, double adjoint) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -175,7 +170,7 @@ ParameterCheck check_parameter(Differences& differences, const std::vector<doubl
   for (size_t i = 0; i < steps.size(); ++i) {
     const double f = differences.central(index, steps[i]);
     const double limit =
-        i > 0 ? extrapolate(steps[i - 1], check.differences.back(), steps[i], f) : kNone;
+        i > 0 ? extrapolated(check.differences.back(), f, steps[i - 1] / steps[i], 2) : kNone;
     check.differences.push_back(f);
     check.extrapolated.push_back(limit);
     if (std::isnan(f)) ++check.excluded;

@@ -17,6 +17,7 @@
 #include "core/cpu_clock.h"
 #include "core/outline.h"
 #include "core/profile.h"
+#include "experiments/extrapolation.h"
 #include "experiments/interrupt.h"
 #include "experiments/model.h"
 #include "experiments/peak_memory.h"
@@ -159,7 +160,7 @@ GradientProblem::GradientProblem(const Settings& settings_,
   reference = by_adjoint(*this, kPolished);
   const VecX coarse = by_differences(*this, kReferenceStep, kPolished),
              fine = by_differences(*this, kReferenceStep / 2, kPolished);
-  reference_disagreement = error_of((4 * fine - coarse) / 3, reference);
+  reference_disagreement = error_of(extrapolated(coarse, fine, 2, 2), reference);
 }
 
 int gradient_measurements(const GradientPrecisionSettings& study) {

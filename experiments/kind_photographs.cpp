@@ -168,7 +168,6 @@ Json summarise(const Settings& settings, const std::vector<FabricCaptures>& fabr
   Json summary;
   std::map<std::string, std::vector<Json>> groups, changes;
   std::vector<DrapedByProtocols> draped;
-  std::vector<size_t> draped_rows;
   for (const FabricCaptures& f : fabrics) {
     Json row = {{"fabric", f.fabric},
                 {"areal_density", areal_density_of(settings, f.fabric)},
@@ -199,12 +198,10 @@ Json summarise(const Settings& settings, const std::vector<FabricCaptures>& fabr
       changes["branch given, other " + change].push_back(predicted);
       row["predictions"].push_back(predicted);
     }
-    if (const std::string item = f.chosen.front().name(); protocols.has(item)) {
-      draped.push_back({protocols.load(item)["drapes"],
-                        numbers(row["photographs"]["drape_coefficients"]),
-                        numbers(row["photographs"]["node_counts"])});
-      draped_rows.push_back(summary["fabrics"].size());
-    }
+    const std::string item = f.chosen.front().name();
+    draped.push_back({protocols.has(item) ? protocols.load(item)["drapes"] : Json::array(),
+                      numbers(row["photographs"]["drape_coefficients"]),
+                      numbers(row["photographs"]["node_counts"])});
     summary["fabrics"].push_back(row);
   }
   std::printf("%-34s %8s %6s %10s %9s %7s %9s %8s\n", "", "pictures", "free", "+-1 node", "rms mm",
@@ -215,8 +212,7 @@ Json summarise(const Settings& settings, const std::vector<FabricCaptures>& fabr
     print_row(label, summary["predictions"][label] = account(items));
   const BranchFreePredictions free = predict_without_branch(draped);
   for (size_t i = 0; i < draped.size(); ++i)
-    if (!free.fabrics[i].is_null())
-      summary["fabrics"][draped_rows[i]]["without_branch"] = free.fabrics[i];
+    if (!free.fabrics[i].is_null()) summary["fabrics"][i]["without_branch"] = free.fabrics[i];
   summary["without_branch"] = free.summary;
   print_without_branch(free.summary);
   return summary;

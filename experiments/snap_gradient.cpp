@@ -14,6 +14,7 @@
 #include "core/outline.h"
 #include "experiments/gradient_precision.h"
 #include "experiments/interrupt.h"
+#include "experiments/extrapolation.h"
 #include "experiments/model.h"
 
 namespace drape {
@@ -121,8 +122,8 @@ class SnapStudy {
     const double h = std::min(kLargestReferenceStep, kOverDistance * distance);
     std::array<double, 3> d{};
     for (size_t i = 0; i < d.size(); ++i) d[i] = difference(at, h / static_cast<double>(1 << i));
-    const double first = (4 * d[1] - d[0]) / 3, second = (4 * d[2] - d[1]) / 3,
-                 reference = (16 * second - first) / 15;
+    const double first = extrapolated(d[0], d[1], 2, 2), second = extrapolated(d[1], d[2], 2, 2),
+                 reference = extrapolated(first, second, 2, 4);
     row["reference_uncertainty"] = std::abs(reference - second) / std::abs(reference);
     row["adjoint_error"] = std::abs(adjoint - reference) / std::abs(reference);
     row["differences"] = Json::array();
